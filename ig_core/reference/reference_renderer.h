@@ -1,0 +1,29 @@
+/// The exact renderer: one ray at a time in extended precision, straight from the numbers of the scene file.
+/// It shares only value types with the fast path, so that either can be used to judge the other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ig_core/view.h"
+
+namespace quadrig::reference {
+
+/// A picture in linear light, row-major, row 0 at the top, three values a pixel.
+struct LinearImage {
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgb;
+};
+
+/// Ids and depth at the pixel centres. `ties`, where given, is set to 1 at each pixel whose answer changes when the ray
+/// moves by 1e-6 pixel, or where two depths agree within 1e-9 relative: there more than one answer is right.
+GroundTruth ground_truth(const Scene& scene, const View& view, std::vector<std::uint8_t>* ties = nullptr);
+
+/// The picture by supersampling: `samples` x `samples` rays a pixel, regular grid, mean in linear light.
+LinearImage picture(const Scene& scene, const View& view, const Environment& environment, int samples);
+
+/// Linear light to 8-bit sRGB, rounded to nearest (IEC 61966-2-1), into an image of the same size.
+void to_srgb8(const LinearImage& linear, const FrameImage& image);
+
+}  // namespace quadrig::reference

@@ -1,0 +1,76 @@
+/// What the eye sees and how the answer is held: the values that go through the image generator's door.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ig_core/geometry/space.h"
+#include "ig_core/scene/scene.h"
+
+namespace quadrig {
+
+/// The image plane at distance 1: the centre of column c, row r (row 0 at the top) looks along
+/// d = (left + (c + 0.5) column_step, 1, top - (r + 0.5) row_step) in eye space.
+struct ImagePlane {
+    int width = 0;
+    int height = 0;
+    double left = 0.0;
+    double column_step = 0.0;
+    double top = 0.0;
+    double row_step = 0.0;
+
+    /// Square pixels, the look direction in the middle, a horizontal field of view in 0..180 degrees exclusive.
+    static ImagePlane symmetric(int width, int height, Degrees horizontal_fov);
+    /// A window given by its half angles (left and bottom negative), each within -90..90 exclusive; pixels need not be square.
+    static ImagePlane window(int width, int height, Degrees left, Degrees right, Degrees top, Degrees bottom);
+
+    [[nodiscard]] double x(double column) const { return left + column * column_step; }  ///< column 0.5 is the first centre
+    [[nodiscard]] double z(double row) const { return top - row * row_step; }
+};
+
+struct View {
+    ScenePoint eye;
+    glm::dmat3 eye_from_scene{1.0};
+    ImagePlane image;
+};
+
+/// What the host may change from frame to frame; absent values are the scene's own.
+struct Environment {
+    double seconds = 0.0;  ///< scene time, drives texture drift
+    std::optional<Sun> sun;
+    std::optional<double> visibility;  ///< m, meteorological optical range; replaces the scene's, or adds haze where it has none
+};
+
+/// A finished or growing picture in memory that somebody else owns: 8-bit sRGB, four bytes a pixel R, G, B, A = 255.
+/// `row_bytes` may be negative: row 0 is always the top row.
+struct FrameImage {
+    std::uint8_t* top_row = nullptr;
+    int width = 0;
+    int height = 0;
+    std::ptrdiff_t row_bytes = 0;
+    [[nodiscard]] std::uint8_t* row(int r) const { return top_row + r * row_bytes; }
+};
+
+/// What is seen at every pixel centre, row 0 at the top, row-major.
+struct GroundTruth {
+    std::vector<std::int32_t> object_ids;   ///< index in the file, kSkyId or kGroundId
+    std::vector<std::int32_t> surface_ids;  ///< 0 the quadric, j its j-th plane; 0 for ground and sky
+    std::vector<double> depth;              ///< k, infinity for sky
+    void resize(std::size_t pixels) {
+        object_ids.assign(pixels, kSkyId);
+        surface_ids.assign(pixels, 0);
+        depth.assign(pixels, std::numeric_limits<double>::infinity());
+    }
+};
+
+/// Every approximation has a name here.
+struct Quality {
+    int sub_scan_lines = 4;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8
+};
+
+}  // namespace quadrig

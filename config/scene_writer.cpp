@@ -1,0 +1,134 @@
+#include <array>
+#include <charconv>
+#include <ostream>
+#include <span>
+
+#include "config/scene_file.h"
+
+namespace quadrig::config {
+namespace {
+
+/// A double in the fewest digits that read back the same.
+struct Exact {
+    double number;
+};
+std::ostream& operator<<(std::ostream& out, Exact exact) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), exact.number).ptr;
+    return out.write(text.data(), end - text.data());
+}
+
+/// A TOML basic string.
+struct Quoted {
+    const std::string& text;
+};
+std::ostream& operator<<(std::ostream& out, const Quoted& quoted) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    out << '"';
+    for (const char c : quoted.text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7F) {
+            out << "\\u00" << kHex[byte >> 4] << kHex[byte & 15];
+        } else {
+            if (c == '"' || c == '\\') out << '\\';
+            out << c;
+        }
+    }
+    return out << '"';
+}
+
+std::ostream& operator<<(std::ostream& out, std::span<const double> numbers) {
+    out << '[';
+    for (std::size_t i = 0; i < numbers.size(); ++i) out << (i > 0 ? ", " : "") << Exact{numbers[i]};
+    return out << ']';
+}
+using Numbers = std::span<const double>;
+
+void write_colour(std::ostream& out, std::string_view key, const Colour& c) {
+    out << key << " = " << Numbers(std::array{c.r, c.g, c.b}) << '\n';
+}
+
+void write_paint(std::ostream& out, const Paint& paint, const Scene& scene) {
+    write_colour(out, "colour", paint.colour);
+    if (!paint.texture) return;
+    out << "texture = " << Quoted{scene.textures[*paint.texture].name} << '\n';
+    out << "texture_weight = " << Exact{paint.texture_weight} << '\n';
+    if (!paint.translucence) return;
+    out << "translucence = { threshold = " << Exact{paint.translucence->threshold}
+        << ", limb_threshold = " << Exact{paint.translucence->limb_threshold}
+        << ", softness = " << Exact{paint.translucence->softness} << " }\n";
+}
+
+void write_texture(std::ostream& out, const Texture& texture) {
+    std::vector<double> coefficients, frequencies, phases;
+    for (const TextureTerm& term : texture.terms) {
+        coefficients.push_back(term.coefficient);
+        frequencies.push_back(term.frequency);
+        phases.push_back(term.phase);
+    }
+    out << "[[texture]]\nname = " << Quoted{texture.name} << "\ncoefficients = " << Numbers(coefficients)
+        << "\nfrequencies = " << Numbers(frequencies) << "\nphases = " << Numbers(phases)
+        << "\nvertical = " << Exact{texture.vertical}
+        << "\ndrift = " << Numbers(std::array{texture.drift.x, texture.drift.y}) << '\n';
+}
+
+struct ShapeWriter {
+    std::ostream& out;
+    void operator()(const Ellipsoid& e) const {
+        const glm::dvec3& c = e.centre.metres;
+        out << "ellipsoid = { centre = " << Numbers(std::array{c.x, c.y, c.z})
+            << ", semi_axes = " << Numbers(std::array{e.semi_axes.x, e.semi_axes.y, e.semi_axes.z}) << ", attitude = "
+            << Numbers(std::array{e.attitude.heading.value, e.attitude.pitch.value, e.attitude.roll.value}) << " }\n";
+    }
+    void operator()(const Hill& hill) const {
+        const glm::dvec3& a = hill.apex.metres;
+        out << "hill = { apex = " << Numbers(std::array{a.x, a.y, a.z})
+            << ", radius_of_curvature = " << Exact{hill.radius_of_curvature} << ", slope = " << Exact{hill.slope}
+            << " }\n";
+    }
+    void operator()(const GeneralQuadric& q) const { out << "quadric = " << Numbers(q.coefficients) << '\n'; }
+};
+
+void write_object(std::ostream& out, const Object& object, const Scene& scene) {
+    out << "[[object]]\n";
+    if (!object.name.empty()) out << "name = " << Quoted{object.name} << '\n';
+    std::visit(ShapeWriter{out}, object.shape);
+    if (!object.planes.empty()) {
+        out << "planes = [";
+        for (std::size_t i = 0; i < object.planes.size(); ++i) {
+            out << (i > 0 ? ", " : "") << Numbers(object.planes[i].coefficients);
+        }
+        out << "]\n";
+    }
+    write_paint(out, object.paint, scene);
+}
+
+}  // namespace
+
+void write_scene(const Scene& scene, std::ostream& out) {
+    out << "[scene]\n";
+    if (!scene.name.empty()) out << "name = " << Quoted{scene.name} << '\n';
+    out << "origin = { latitude = " << Exact{scene.origin.latitude.value}
+        << ", longitude = " << Exact{scene.origin.longitude.value} << ", altitude = " << Exact{scene.origin.altitude}
+        << " }\n";
+    out << "[sun]\nazimuth = " << Exact{scene.sun.azimuth.value} << "\nelevation = " << Exact{scene.sun.elevation.value}
+        << "\nambient = " << Exact{scene.sun.ambient} << "\n[sky]\n";
+    write_colour(out, "horizon", scene.sky.horizon);
+    write_colour(out, "zenith", scene.sky.zenith);
+    if (scene.haze) {
+        out << "[haze]\nvisibility = " << Exact{scene.haze->visibility} << '\n';
+        write_colour(out, "colour", scene.haze->colour);
+    }
+    if (scene.ground) {
+        out << "[ground]\n";
+        write_paint(out, scene.ground->paint, scene);
+    }
+    for (const CloudDeck& deck : scene.cloud_decks) {
+        out << "[[cloud_deck]]\naltitude = " << Exact{deck.altitude} << '\n';
+        write_paint(out, deck.paint, scene);
+    }
+    for (const Texture& texture : scene.textures) write_texture(out, texture);
+    for (const Object& object : scene.objects) write_object(out, object, scene);
+}
+
+}  // namespace quadrig::config

@@ -11,7 +11,7 @@ ImagePlane ImagePlane::symmetric(int width, int height, Degrees horizontal_fov) 
 
 ImagePlane ImagePlane::window(int width, int height, Degrees left, Degrees right, Degrees top, Degrees bottom) {
     const double tan_left = std::tan(left.radians()), tan_top = std::tan(top.radians());
-    return {width,   height,
+    return {width,    height,
             tan_left, (std::tan(right.radians()) - tan_left) / width,
             tan_top,  (tan_top - std::tan(bottom.radians())) / height};
 }

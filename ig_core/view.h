@@ -26,10 +26,13 @@ struct ImagePlane {
 
     /// Square pixels, the look direction in the middle, a horizontal field of view in 0..180 degrees exclusive.
     static ImagePlane symmetric(int width, int height, Degrees horizontal_fov);
-    /// A window given by its half angles (left and bottom negative), each within -90..90 exclusive; pixels need not be square.
+    /// A window given by its half angles (left and bottom negative), each within -90..90 exclusive; pixels need not be
+    /// square.
     static ImagePlane window(int width, int height, Degrees left, Degrees right, Degrees top, Degrees bottom);
 
-    [[nodiscard]] double x(double column) const { return left + column * column_step; }  ///< column 0.5 is the first centre
+    [[nodiscard]] double x(double column) const {
+        return left + column * column_step;
+    }  ///< column 0.5 is the first centre
     [[nodiscard]] double z(double row) const { return top - row * row_step; }
 };
 
@@ -43,7 +46,8 @@ struct View {
 struct Environment {
     double seconds = 0.0;  ///< scene time, drives texture drift
     std::optional<Sun> sun;
-    std::optional<double> visibility;  ///< m, meteorological optical range; replaces the scene's, or adds haze where it has none
+    std::optional<double>
+        visibility;  ///< m, meteorological optical range; replaces the scene's, or adds haze where it has none
 };
 
 /// A finished or growing picture in memory that somebody else owns: 8-bit sRGB, four bytes a pixel R, G, B, A = 255.

@@ -19,7 +19,9 @@ glm::dmat3 eye_from_scene_rotation(const Attitude& attitude) {
 }
 
 Attitude attitude_of(const glm::dmat3& eye_from_scene) {
-    const auto row = [&](int r) { return glm::dvec3(eye_from_scene[0][r], eye_from_scene[1][r], eye_from_scene[2][r]); };
+    const auto row = [&](int r) {
+        return glm::dvec3(eye_from_scene[0][r], eye_from_scene[1][r], eye_from_scene[2][r]);
+    };
     const glm::dvec3 right = row(0), forward = row(1), up = row(2);
     const double pitch = std::atan2(forward.z, std::hypot(forward.x, forward.y));
     double heading = 0.0, roll = 0.0;

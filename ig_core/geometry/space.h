@@ -44,7 +44,8 @@ struct GeodeticPosition {
     double altitude = 0.0;
 };
 
-/// A rigid body in scene space. `eye_from_scene` is what a camera fixed to the body's own axes (right, forward, up) would use.
+/// A rigid body in scene space. `eye_from_scene` is what a camera fixed to the body's own axes (right, forward, up)
+/// would use.
 struct ScenePose {
     ScenePoint position;
     glm::dmat3 eye_from_scene{1.0};

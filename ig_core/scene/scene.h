@@ -31,14 +31,16 @@ struct Texture {
     glm::dvec2 drift{0.0};           ///< m/s, east and north
 };
 
-/// Thresholds of the texturing function below which a surface is a hole (2.2): limb_threshold >= threshold, softness > 0.
+/// Thresholds of the texturing function below which a surface is a hole (2.2): limb_threshold >= threshold, softness >
+/// 0.
 struct Translucence {
     double threshold = 0.0;
     double limb_threshold = 0.0;
     double softness = 0.1;
 };
 
-/// How a surface is painted. `texture` indexes Scene::textures; without one T is taken as 0 with weight 0 and opacity 1.
+/// How a surface is painted. `texture` indexes Scene::textures; without one T is taken as 0 with weight 0 and
+/// opacity 1.
 struct Paint {
     Colour colour{1.0};
     std::optional<std::uint32_t> texture;

@@ -1,0 +1,213 @@
+#include "ig_core/outline/image_forms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrig {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Ellipsoids within this cosine of the look direction get their own image origin; further out the shear itself would
+/// be long.
+constexpr double kLeastShearCosine = 0.15;
+
+/// Discriminant of Q along a line given by direction and moment (q x direction) about the anchor, as a bilinear form of
+/// two lines.
+double line_discriminant(const EyeSolid& s, const glm::dvec3& direction_a, const glm::dvec3& moment_a,
+                         const glm::dvec3& direction_b, const glm::dvec3& moment_b) {
+    const glm::dvec3 ma = s.m * direction_a, mb = s.m * direction_b;
+    return -value(s.adjugate, moment_a, moment_b) - s.c * glm::dot(direction_a, mb) +
+           glm::dot(s.w, direction_a) * glm::dot(s.w, direction_b) + glm::dot(ma, glm::cross(s.w, moment_b)) +
+           glm::dot(mb, glm::cross(s.w, moment_a));
+}
+
+struct Interval {
+    double from, to;
+};
+
+/// Where Q <= 0 along a line with A t^2 + 2 B t + C and discriminant D: one interval, or two when A < 0.
+int inside_quadric(double a, double b, double c, double d, std::array<Interval, 2>& out) {
+    a += 0.0;  // -0 would flip the sign of an infinite root
+    if (!(d > 0.0)) {
+        if (a > 0.0 || (a == 0.0 && c > 0.0)) return 0;
+        out[0] = {-kInfinity, kInfinity};
+        return 1;
+    }
+    const double root = std::sqrt(d);
+    const double entry = b <= 0.0 ? c / (root - b) : -(b + root) / a;
+    const double exit = b >= 0.0 ? -c / (b + root) : (root - b) / a;
+    if (a >= 0.0) {
+        out[0] = {entry, exit};
+        return 1;
+    }
+    out[0] = {-kInfinity, exit};
+    out[1] = {entry, kInfinity};
+    return 2;
+}
+
+void set_forms(EyeSolid& e) {
+    // L = -[a]x' adj(M) [a]x - c M + w w' + 2 (w.a) M - (Ma) w' - w (Ma)'
+    e.limb = (2.0 * glm::dot(e.w, e.anchor) - e.c) * e.m - through_cross(e.adjugate, e.anchor) + outer(e.w) -
+             outer(e.m * e.anchor, e.w);
+    // c adj(M) - [w]x' M [w]x - (a (adj(M) w)' + (adj(M) w) a') + det(M) a a'
+    e.tangent = e.c * e.adjugate - through_cross(e.m, e.w) - outer(e.anchor, e.adjugate * e.w) +
+                e.determinant * outer(e.anchor);
+}
+
+}  // namespace
+
+RowRoots roots_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta)));
+    const double beta = conic.beta_at(zeta);
+    const double near = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
+    const double other = conic.gamma_at(zeta) / near;
+    const double own = near / conic.alpha;
+    return beta <= 0.0 ? RowRoots{own, other} : RowRoots{other, own};
+}
+
+void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
+             bool infinity, EyeSolid& out) {
+    const glm::dvec3 anchor = eye_from_scene * (solid.anchor.metres - eye.metres);
+    const bool shear = anchor.y > kLeastShearCosine * glm::length(anchor);
+    out.x0 = shear ? anchor.x / anchor.y : 0.0;
+    out.z0 = shear ? anchor.z / anchor.y : 0.0;
+    out.anchor = shear ? glm::dvec3(0, anchor.y, 0) : anchor;
+    // Columns of scene_from_sheared: where the sheared axes lie in the scene; p_scene = T p', so forms pull back as T'
+    // M T.
+    const glm::dmat3 scene_from_eye = glm::transpose(eye_from_scene);
+    const glm::dmat3 scene_from_sheared{scene_from_eye[0],
+                                        scene_from_eye[1] + out.x0 * scene_from_eye[0] + out.z0 * scene_from_eye[2],
+                                        scene_from_eye[2]};
+    out.m = congruent(solid.m, scene_from_sheared);
+    // adj(T'MT) = T^-1 adj(M) T^-T
+    out.adjugate =
+        congruent(solid.adjugate, glm::dmat3{scene_from_eye[0] - out.x0 * scene_from_eye[1], scene_from_eye[1],
+                                             scene_from_eye[2] - out.z0 * scene_from_eye[1]});
+    out.determinant = solid.determinant;
+    const auto covector = [&](const glm::dvec3& n) {
+        return glm::dvec3(glm::dot(n, scene_from_sheared[0]), glm::dot(n, scene_from_sheared[1]),
+                          glm::dot(n, scene_from_sheared[2]));
+    };
+    out.w = covector(solid.w);
+    out.c = solid.c;
+    out.v = out.w - out.m * out.anchor;
+    out.s = solid.quadric_at(eye);
+    set_forms(out);
+
+    out.plane_count = 0;
+    for (const SolidPlane& plane : solid.planes)
+        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
+            covector(plane.normal), plane.offset, solid.plane_at(plane, eye),
+            plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
+    if (near_plane)
+        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
+            {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};
+    if (infinity) out.planes[static_cast<std::size_t>(out.plane_count++)] = {{0, 0, 0}, 1.0, 1.0, kNoSurface, true};
+}
+
+RowConic limb_on_rows(const EyeSolid& e) {
+    const Sym3& l = e.limb;
+    const Sym3& t = e.tangent;
+    return {l.xx,
+            {l.xy, l.xz},
+            {l.yy, 2.0 * l.yz, l.zz},
+            {-e.s * t.zz, 2.0 * e.s * t.yz, -e.s * t.yy}};  // -s l' tangent l with the row's plane l = (0, -zeta, 1)
+}
+
+RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
+    const glm::dvec3 &n = plane.normal, &a = e.anchor;
+    const double bl = plane.local_offset;
+    // The ray meets plane j at q = y / (n.d) about the anchor, y = n x (d x a) - P(a) d: three images of the axes.
+    const glm::dvec3 along = n * a;
+    const glm::dvec3 yx(along.y + along.z - bl, -a.y * n.x, -a.z * n.x);
+    const glm::dvec3 yy(-a.x * n.y, along.x + along.z - bl, -a.z * n.y);
+    const glm::dvec3 yz(-a.x * n.z, -a.y * n.z, along.x + along.y - bl);
+    const auto entry = [&](const glm::dvec3& p, double hp, const glm::dvec3& q, double hq) {
+        return value(e.m, p, q) + hp * glm::dot(e.w, q) + hq * glm::dot(e.w, p) + e.c * hp * hq;
+    };
+    RowConic conic;
+    conic.alpha = entry(yx, n.x, yx, n.x);
+    conic.beta = {entry(yx, n.x, yy, n.y), entry(yx, n.x, yz, n.z)};
+    conic.gamma = {entry(yy, n.y, yy, n.y), 2.0 * entry(yy, n.y, yz, n.z), entry(yz, n.z, yz, n.z)};
+    // Planes l(zeta) = (0, -zeta, 1) through the eye and the row cut plane j in lines: direction n x l, moment P(a) l -
+    // (l.a) n.
+    const glm::dvec3 l0(0, 0, 1), l1(0, -1, 0);
+    const glm::dvec3 u0 = glm::cross(n, l0), u1 = glm::cross(n, l1);
+    const glm::dvec3 m0 = bl * l0 - a.z * n, m1 = bl * l1 + a.y * n;
+    const double b2 = plane.at_eye * plane.at_eye;
+    conic.discriminant = {b2 * line_discriminant(e, u0, m0, u0, m0), 2.0 * b2 * line_discriminant(e, u0, m0, u1, m1),
+                          b2 * line_discriminant(e, u1, m1, u1, m1)};
+    return conic;
+}
+
+glm::dvec3 visibility_line(const EyeSolid& e, const EyePlane& plane) {
+    // s n - b v, expanded about the anchor.
+    const glm::dvec3 &n = plane.normal, &a = e.anchor;
+    const glm::dvec3 ma = e.m * a;
+    return glm::cross(a, glm::cross(n, ma)) + (e.c - 2.0 * glm::dot(e.w, a)) * n + plane.local_offset * (ma - e.w) +
+           glm::dot(n, a) * e.w;
+}
+
+glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlane& j) {
+    // b_j n_i - b_i n_j, expanded about the anchor.
+    return j.local_offset * i.normal - i.local_offset * j.normal - glm::cross(e.anchor, glm::cross(i.normal, j.normal));
+}
+
+LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
+                      int skip_b) {
+    double from = -kInfinity, to = kInfinity;
+    for (int i = 0; i < e.plane_count; ++i) {
+        if (i == skip_a || i == skip_b) continue;
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        const double slope = glm::dot(plane.normal, direction);
+        const double here = glm::dot(plane.normal, origin) + plane.local_offset;
+        if (slope > 0.0)
+            from = std::max(from, -here / slope);
+        else if (slope < 0.0)
+            to = std::min(to, -here / slope);
+        else if (here <= 0.0)
+            return {1.0, 0.0};
+    }
+    const glm::dvec3 moment = glm::cross(origin, direction);
+    std::array<Interval, 2> pieces;
+    const int count = inside_quadric(value(e.m, direction), value(e.m, origin, direction) + glm::dot(e.w, direction),
+                                     value(e.m, origin) + 2.0 * glm::dot(e.w, origin) + e.c,
+                                     line_discriminant(e, direction, moment, direction, moment), pieces);
+    for (int i = 0; i < count; ++i) {
+        const Interval& piece = pieces[static_cast<std::size_t>(i)];
+        const LineSegment segment{std::max(from, piece.from), std::min(to, piece.to)};
+        if (segment.from < segment.to) return segment;
+    }
+    return {1.0, 0.0};
+}
+
+int surface_at(const EyeSolid& e, double xi, double zeta) {
+    const glm::dvec3 d(xi, 1.0, zeta);
+    double from = 0.0, to = kInfinity;
+    int surface = kNoSurface;
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        const double slope = glm::dot(plane.normal, d);
+        if (slope > 0.0) {
+            const double k = -plane.at_eye / slope;
+            if (k > from) from = k, surface = plane.surface;
+        } else if (slope < 0.0) {
+            to = std::min(to, -plane.at_eye / slope);
+        } else if (plane.at_eye <= 0.0) {
+            return kNoSurface;
+        }
+    }
+    std::array<Interval, 2> pieces;
+    const int count = inside_quadric(value(e.m, d), glm::dot(e.v, d), e.s, value(e.limb, d), pieces);
+    for (int i = 0; i < count; ++i) {
+        const Interval& piece = pieces[static_cast<std::size_t>(i)];
+        if (std::max(from, piece.from) >= std::min(to, piece.to)) continue;
+        const int seen = piece.from > from ? 0 : surface;
+        return seen < 0 ? kNoSurface : seen;
+    }
+    return kNoSurface;
+}
+
+}  // namespace quadrig

@@ -1,0 +1,136 @@
+#include "ig_core/outline/key_points.h"
+
+#include <cmath>
+
+namespace quadrig {
+namespace {
+
+/// A key point kept in vain costs one more band; one lost costs a wrong picture.
+constexpr double kTolerance = 1e-6;
+
+/// The two values of t with a t^2 + 2 b t + c = 0 and their count; coincident roots within rounding count as real.
+int real_roots(double a, double b, double c, std::array<double, 2>& t) {
+    const double discriminant = b * b - a * c;
+    if (discriminant < -1e-12 * (b * b + std::abs(a * c))) return 0;
+    const double q = -(b + std::copysign(std::sqrt(std::max(0.0, discriminant)), b));
+    int count = 0;
+    if (a != 0.0) t[static_cast<std::size_t>(count++)] = q / a;
+    if (q != 0.0) t[static_cast<std::size_t>(count++)] = c / q;
+    if (q == 0.0 && a != 0.0) t[static_cast<std::size_t>(count++)] = 0.0;
+    return count;
+}
+
+/// Whether an eye-space point is kept by every plane but `own`.
+bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        if (&plane == own) continue;
+        const double at = glm::dot(plane.normal, p);
+        if (at + plane.at_eye < -kTolerance * (std::abs(at) + std::abs(plane.at_eye))) return false;
+    }
+    return true;
+}
+
+/// Whether the quadric through an eye-space point is entered there by the ray from the eye: p'Mp + v.p <= 0.
+bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
+    const double curved = value(e.m, p), straight = glm::dot(e.v, p);
+    return curved + straight <= kTolerance * (std::abs(curved) + std::abs(straight));
+}
+
+/// Limb points are where the ray touches the quadric, k = -B/A.
+void add_limb_point(Outline& out, double xi, double zeta, const EyePlane* own, KeyPoint::Kind kind) {
+    const glm::dvec3 d(xi, 1.0, zeta);
+    const double k = -glm::dot(out.solid.v, d) / value(out.solid.m, d);
+    if (std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, own))
+        out.key_points.push_back({xi, zeta, kind});
+}
+
+void add_curve_extrema(Outline& out, const RowConic& curve, const EyePlane& plane) {
+    std::array<double, 2> zetas;
+    const int count = real_roots(curve.discriminant[2], 0.5 * curve.discriminant[1], curve.discriminant[0], zetas);
+    for (int i = 0; i < count; ++i) {
+        const double zeta = zetas[static_cast<std::size_t>(i)], xi = -curve.beta_at(zeta) / curve.alpha;
+        const glm::dvec3 d(xi, 1.0, zeta);
+        const double k = -plane.at_eye / glm::dot(plane.normal, d);
+        if (!(std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, &plane))) continue;
+        if (plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d))
+            out.key_points.push_back({xi, zeta, KeyPoint::Kind::curve_extremum});
+    }
+}
+
+/// Contact points: limb and visibility line meet (Eq 6, 12).
+void add_contacts(Outline& out, const EyePlane& plane) {
+    const glm::dvec3 v = visibility_line(out.solid, plane);
+    const bool by_zeta = std::abs(v.x) >= std::abs(v.z);
+    const double lead = by_zeta ? v.x : v.z;
+    if (lead == 0.0) return;
+    const glm::dvec3 start = by_zeta ? glm::dvec3(-v.y / lead, 1, 0) : glm::dvec3(0, 1, -v.y / lead);
+    const glm::dvec3 step = by_zeta ? glm::dvec3(-v.z / lead, 0, 1) : glm::dvec3(1, 0, -v.x / lead);
+    std::array<double, 2> t;
+    const Sym3& limb = out.solid.limb;
+    const int count = real_roots(value(limb, step), value(limb, start, step), value(limb, start), t);
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 d = start + t[static_cast<std::size_t>(i)] * step;
+        add_limb_point(out, d.x, d.z, &plane, KeyPoint::Kind::contact);
+    }
+}
+
+}  // namespace
+
+void find_boundaries(Outline& out) {
+    const EyeSolid& e = out.solid;
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& pi = e.planes[static_cast<std::size_t>(i)];
+        if (!pi.cuts) continue;
+        out.curves.push_back(intersection_curve_on_rows(e, pi));
+        for (int j = 0; j < i; ++j) {
+            const EyePlane& pj = e.planes[static_cast<std::size_t>(j)];
+            if (!pj.cuts) continue;
+            // Between two planes that face away the edge itself is hidden, but its ends can be where their curves meet.
+            const bool hidden = pi.at_eye > 0.0 && pj.at_eye > 0.0;
+            const glm::dvec3 line = intersection_line(e, pi, pj);
+            if (out.direct) {
+                if (!hidden)
+                    out.lines.push_back(
+                        {line, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+                continue;
+            }
+            const glm::dvec3 direction = glm::cross(pi.normal, pj.normal);
+            const double length2 = glm::dot(direction, direction);
+            if (!(length2 > 0.0)) continue;
+            const glm::dvec3 moment = pi.local_offset * pj.normal - pj.local_offset * pi.normal;
+            const glm::dvec3 origin = glm::cross(direction, moment) / length2;
+            const LineSegment segment = clip_line(e, origin, direction, i, j);
+            if (!(segment.from < segment.to)) continue;
+            EdgeLine edge{line, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+            for (const double t : {segment.from, segment.to}) {
+                const glm::dvec3 p = e.anchor + origin + t * direction;
+                const double xi = p.x / p.y, zeta = p.z / p.y;
+                edge.zeta_from = std::min(edge.zeta_from, zeta);
+                edge.zeta_to = std::max(edge.zeta_to, zeta);
+                if (!hidden || quadric_faces_eye(e, p)) out.key_points.push_back({xi, zeta, KeyPoint::Kind::edge_end});
+            }
+            if (!hidden) out.lines.push_back(edge);
+        }
+    }
+}
+
+void find_key_points(Outline& out) {
+    const EyeSolid& e = out.solid;
+    const RowConic& limb = out.curves[0];
+    std::array<double, 2> zetas;
+    const int count = real_roots(limb.discriminant[2], 0.5 * limb.discriminant[1], limb.discriminant[0], zetas);
+    for (int i = 0; i < count; ++i) {
+        const double zeta = zetas[static_cast<std::size_t>(i)];
+        add_limb_point(out, -limb.beta_at(zeta) / limb.alpha, zeta, nullptr, KeyPoint::Kind::limb_extremum);
+    }
+    std::size_t curve = 1;
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        if (!plane.cuts) continue;
+        add_curve_extrema(out, out.curves[curve++], plane);
+        add_contacts(out, plane);
+    }
+}
+
+}  // namespace quadrig

@@ -1,0 +1,16 @@
+/// Which curves and lines can bound a solid's picture, and the key points on them (Gardner 1984, 2.1).
+#pragma once
+
+#include "ig_core/outline/outline.h"
+
+namespace quadrig {
+
+/// Adds to `outline` the intersection curves of all planes that cut and the edges along which two of them meet, each
+/// edge clipped to the solid; edges between two planes that face away are hidden and left out. Expects solid and limb
+/// in place.
+void find_boundaries(Outline& outline);
+
+/// Adds the key points that lie on the solid (to within a tolerance that errs towards keeping one).
+void find_key_points(Outline& outline);
+
+}  // namespace quadrig

@@ -1,0 +1,227 @@
+#include "ig_core/outline/outline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ig_core/outline/key_points.h"
+
+namespace quadrig {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Boundaries closer than this (image-plane units; a pixel is 1e-5 at the least) are one: the sliver between them is
+/// not asked.
+constexpr double kSliver = 1e-12;
+/// Boundaries of a band that come out of order by more than this are solved again on their row.
+constexpr double kDisorder = 1e-11;
+
+struct Candidate {
+    double xi;
+    Boundary boundary;
+};
+constexpr std::size_t kMaxCandidates = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlanes * (kMaxEyePlanes - 1) / 2;
+
+double line_on_row(const glm::dvec3& line, double zeta) { return -(line.y + line.z * zeta) / line.x; }
+
+double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
+    switch (boundary.kind) {
+        case Boundary::Kind::rising:
+            return roots_on_row(outline.curves[boundary.index], zeta).rising;
+        case Boundary::Kind::falling:
+            return roots_on_row(outline.curves[boundary.index], zeta).falling;
+        case Boundary::Kind::line:
+            return line_on_row(outline.lines[boundary.index].line, zeta);
+        case Boundary::Kind::left_end:
+            return -kInfinity;
+        case Boundary::Kind::right_end:
+            return kInfinity;
+    }
+    return kInfinity;
+}
+
+/// Every place on a row where the visible surface may change, sorted.
+std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
+    std::size_t count = 0;
+    const auto add = [&](double xi, Boundary boundary) {
+        if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
+    };
+    for (std::uint16_t i = 0; i < outline.curves.size(); ++i) {
+        if (outline.curves[i].discriminant_at(zeta) < 0.0) continue;
+        const RowRoots roots = roots_on_row(outline.curves[i], zeta);
+        add(roots.rising, {Boundary::Kind::rising, i});
+        add(roots.falling, {Boundary::Kind::falling, i});
+    }
+    for (std::uint16_t i = 0; i < outline.lines.size(); ++i)
+        if (zeta >= outline.lines[i].zeta_from && zeta <= outline.lines[i].zeta_to)
+            add(line_on_row(outline.lines[i].line, zeta), {Boundary::Kind::line, i});
+    std::sort(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const Candidate& a, const Candidate& b) { return a.xi < b.xi; });
+    return count;
+}
+
+/// One row solved by itself. Calls `found(boundary, xi, surface)` for each place from left to right where the surface
+/// to the right differs from the one to the left.
+template <class Found>
+void solve_row(const Outline& outline, double zeta, Found&& found) {
+    std::array<Candidate, kMaxCandidates> candidates;
+    const std::size_t count = candidates_on_row(outline, zeta, candidates);
+    int surface = kNoSurface;
+    double left = -kInfinity;
+    Boundary left_boundary{Boundary::Kind::left_end, 0};
+    for (std::size_t i = 0; i <= count; ++i) {
+        const double right = i < count ? candidates[i].xi : kInfinity;
+        if (right - left > kSliver) {
+            double middle = 0.5 * (left + right);
+            if (!std::isfinite(left))
+                middle = std::isfinite(right) ? right - 1.0 - std::abs(right) : 0.0;
+            else if (!std::isfinite(right))
+                middle = left + 1.0 + std::abs(left);
+            const int here = surface_at(outline.solid, middle, zeta);
+            if (here != surface) found(left_boundary, left, here);
+            surface = here;
+        }
+        if (i < count) {
+            left = right;
+            left_boundary = candidates[i].boundary;
+        }
+    }
+    if (surface != kNoSurface) found(Boundary{Boundary::Kind::right_end, 0}, kInfinity, kNoSurface);
+}
+
+void find_bands(const RowGrid& rows, Outline& out) {
+    const double z_high = rows.z(0) - out.solid.z0, z_low = rows.z(rows.count - 1) - out.solid.z0;
+    auto& keys = out.key_points;
+    std::sort(keys.begin(), keys.end(), [](const KeyPoint& a, const KeyPoint& b) { return a.zeta < b.zeta; });
+    double from = z_low;
+    const auto close_band = [&](double to) {
+        to = std::min(to, z_high);
+        if (!(to > from)) return;
+        // A band without a row of the grid needs no answer.
+        const double first_row = std::ceil((rows.top - (to + out.solid.z0)) / rows.step - 0.5 - 1e-9);
+        const double last_row = std::floor((rows.top - (from + out.solid.z0)) / rows.step - 0.5 + 1e-9);
+        if (last_row >= first_row) {
+            const auto first = static_cast<std::uint32_t>(out.boundaries.size());
+            solve_row(out, 0.5 * (from + to), [&](Boundary boundary, double, int surface) {
+                out.boundaries.push_back(boundary);
+                out.surfaces.push_back(static_cast<std::int8_t>(surface));
+            });
+            const auto count = static_cast<std::uint32_t>(out.boundaries.size()) - first;
+            if (count > 0) out.bands.push_back({from, to, first, count});
+        }
+        from = to;
+    };
+    for (const KeyPoint& key : keys)
+        if (key.zeta > from) close_band(key.zeta);
+    close_band(kInfinity);
+    if (out.bands.empty()) {
+        out.zeta_from = 1.0, out.zeta_to = -1.0;
+    } else {
+        out.zeta_from = out.bands.front().zeta_from, out.zeta_to = out.bands.back().zeta_to;
+    }
+}
+
+}  // namespace
+
+bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, double x_from,
+                    double x_to, double z_from, double z_to) {
+    if (!solid.ellipsoid) return true;
+    const glm::dmat3 scene_from_eye = glm::transpose(eye_from_scene);
+    const glm::dvec3 to_anchor = solid.anchor.metres - eye.metres;
+    // Inside the half-space n.p > offset as far as the ellipsoid reaches along n: sqrt(-c n' M^-1 n).
+    const auto reaches = [&](const glm::dvec3& n_eye, double offset) {
+        const glm::dvec3 n = scene_from_eye * n_eye;
+        const double extent2 = -solid.c * value(solid.adjugate, n) / solid.determinant;
+        const double distance = glm::dot(n, to_anchor) - offset;
+        return distance > 0.0 || distance * distance <= extent2 * (1.0 + 1e-9);
+    };
+    return solid.c < 0.0 && reaches({0, 1, 0}, kNearDepth) && reaches({1, -x_from, 0}, 0) &&
+           reaches({-1, x_to, 0}, 0) && reaches({0, -z_from, 1}, 0) && reaches({0, z_to, -1}, 0);
+}
+
+void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
+                  const RowGrid& rows, Outline& out) {
+    out.object = object;
+    out.lines.clear();
+    out.key_points.clear();
+    out.bands.clear();
+    out.boundaries.clear();
+    out.surfaces.clear();
+    out.curves.clear();
+
+    bool near_plane = true;
+    if (solid.ellipsoid) {
+        const glm::dvec3 forward(eye_from_scene[0].y, eye_from_scene[1].y, eye_from_scene[2].y);
+        const double distance = glm::dot(forward, solid.anchor.metres - eye.metres) - kNearDepth;
+        const double extent2 = -solid.c * value(solid.adjugate, forward) / solid.determinant;
+        near_plane = !(distance > 0.0 && distance * distance > extent2 * (1.0 + 1e-9));
+    }
+    const bool endless = solid.may_be_endless;
+    look_at(solid, eye, eye_from_scene, near_plane, endless, out.solid);
+
+    out.direct = endless;
+    out.limb_only = solid.planes.empty() && !near_plane && !endless;
+    out.curves.push_back(limb_on_rows(out.solid));
+    if (out.limb_only) {
+        const RowConic& limb = out.curves[0];
+        // The quadric's silhouette spans the rows between its two extrema: b +- sqrt(b^2 - a c) of the row
+        // discriminant.
+        const double a = limb.discriminant[2], b = 0.5 * limb.discriminant[1], c = limb.discriminant[0];
+        const double root = std::sqrt(std::max(0.0, b * b - a * c));
+        out.zeta_from = (-b + root) / a, out.zeta_to = (-b - root) / a;  // a < 0
+        if (!(a < 0.0 && out.zeta_from < out.zeta_to)) out.zeta_from = 1.0, out.zeta_to = -1.0;
+        return;
+    }
+    find_boundaries(out);
+    if (out.direct) {
+        out.zeta_from = -kInfinity, out.zeta_to = kInfinity;
+        return;
+    }
+    find_key_points(out);
+    find_bands(rows, out);
+}
+
+int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {
+    int count = 0;
+    bool open = false;
+    solve_row(outline, z - outline.solid.z0, [&](const Boundary&, double xi, int surface) {
+        const double x = outline.solid.x0 + xi;
+        if (open) {
+            cuts[count].to = x;
+            ++count;
+        }
+        open = surface != kNoSurface && count < kMaxCuts;
+        if (open) cuts[count] = {x, x, surface};
+    });
+    return count;
+}
+
+int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
+    const double zeta = z - outline.solid.z0, x0 = outline.solid.x0;
+    if (zeta < outline.zeta_from || zeta > outline.zeta_to) return 0;
+    if (outline.direct) return cuts_on_row_directly(outline, z, cuts);
+    if (outline.limb_only) {
+        const RowRoots limb = roots_on_row(outline.curves[0], zeta);
+        cuts[0] = {x0 + limb.rising, x0 + limb.falling, 0};
+        return cuts[0].from < cuts[0].to ? 1 : 0;
+    }
+    const auto band = std::lower_bound(outline.bands.begin(), outline.bands.end(), zeta,
+                                       [](const ZBand& b, double at) { return b.zeta_to < at; });
+    if (band == outline.bands.end() || zeta < band->zeta_from) return 0;
+    int count = 0;
+    double left = -kInfinity;
+    int surface = kNoSurface;
+    for (std::uint32_t i = band->first; i < band->first + band->count; ++i) {
+        double xi = intercept(outline, outline.boundaries[i], zeta);
+        if (!(xi >= left)) {
+            if (!(xi >= left - kDisorder)) return cuts_on_row_directly(outline, z, cuts);
+            xi = left;
+        }
+        if (surface != kNoSurface && xi > left && count < kMaxCuts) cuts[count++] = {x0 + left, x0 + xi, surface};
+        left = xi;
+        surface = outline.surfaces[i];
+    }
+    return count;
+}
+
+}  // namespace quadrig

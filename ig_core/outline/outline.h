@@ -1,0 +1,91 @@
+/// The picture outline of one object: key points, z-bands and, in each band, the visible boundaries and the surfaces
+/// between them (Gardner 1984, 2.1).
+///
+/// Key points are the only places where the visible boundaries of a convex object change from scan line to scan line:
+/// extrema of the limb and of intersection curves, contact points, and the ends of the edges along which two planes
+/// meet (intersection points and triplets). Only those that lie on the object count. Between two of them the order of
+/// boundaries and surfaces is constant; it is found once, on a typical scan line, by asking for the surface in the
+/// middle of every interval.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "ig_core/outline/image_forms.h"
+
+namespace quadrig {
+
+/// A boundary curve of an outline on the way of a scan line.
+struct Boundary {
+    enum class Kind : std::uint8_t { rising, falling, line, left_end, right_end };
+    Kind kind = Kind::line;
+    std::uint16_t index = 0;  ///< into Outline::curves or Outline::lines
+};
+
+/// An edge: the image of the line in which two bounding planes meet, over the part that lies on the object.
+struct EdgeLine {
+    glm::dvec3 line{0.0};  ///< X_ij of Eq 14
+    double zeta_from = 0, zeta_to = 0;
+};
+
+/// Rows from zeta_from to zeta_to that show boundaries first..first+count-1 (indices into Outline::boundaries), with
+/// Outline::surfaces[first + i] to the right of boundary i.
+struct ZBand {
+    double zeta_from = 0, zeta_to = 0;
+    std::uint32_t first = 0, count = 0;
+};
+
+struct KeyPoint {
+    enum class Kind : std::uint8_t { limb_extremum, curve_extremum, contact, edge_end };
+    double xi = 0, zeta = 0;
+    Kind kind = Kind::edge_end;
+};
+
+struct Outline {
+    std::uint32_t object = 0;
+    EyeSolid solid;
+    std::vector<RowConic> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
+    std::vector<EdgeLine> lines;
+    std::vector<KeyPoint> key_points;
+    std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
+    std::vector<Boundary> boundaries;
+    std::vector<std::int8_t> surfaces;
+    bool limb_only = false;             ///< nothing but the limb: one band, one surface
+    bool direct = false;                ///< every row is solved by itself: solids without end
+    double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing
+};
+
+/// The rows on which outlines will be asked for: z = top - (row + 1/2) step, row in 0..count-1.
+struct RowGrid {
+    double top = 0, step = 1;
+    int count = 0;
+    [[nodiscard]] double z(int row) const { return top - (row + 0.5) * step; }
+};
+
+/// Part of a scan line on which one surface of an object is seen; x in image-plane units (distance 1), from < to.
+struct Cut {
+    double from = 0, to = 0;
+    int surface = 0;
+};
+/// At most so many cuts on one row: each of the 19 planes and the quadric can show twice.
+inline constexpr int kMaxCuts = 40;
+
+/// True where some part of the solid may lie in front of k_near and inside the view window, by its own extent
+/// (ellipsoids), or nothing is known about it.
+bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, double x_from,
+                    double x_to, double z_from, double z_to);
+
+/// Builds the outline. Reuses the memory of `out`.
+void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
+                  const RowGrid& rows, Outline& out);
+
+/// The visible surfaces on the scan line z, from left to right: from the z-band the row lies in, or solved directly
+/// where the band's order does not hold to within rounding. Returns how many were written to `cuts` (room for
+/// kMaxCuts).
+int cuts_on_row(const Outline& outline, double z, Cut* cuts);
+
+/// The same without z-bands: every boundary candidate of the row, every interval asked.
+int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts);
+
+}  // namespace quadrig

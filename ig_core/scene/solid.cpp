@@ -1,0 +1,232 @@
+#include "ig_core/scene/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrig {
+namespace {
+
+using Quad = __float128;
+using Quad3 = std::array<Quad, 3>;
+
+/// Q(p) = p' M p + 2 v.p + s in scene space, 113-bit.
+struct QuadQuadric {
+    Quad m[3][3];
+    Quad v[3];
+    Quad s;
+};
+
+Quad magnitude(Quad a) { return a < 0 ? -a : a; }
+
+glm::dmat3 scene_from_body(const Attitude& attitude) { return glm::transpose(eye_from_scene_rotation(attitude)); }
+
+/// Ellipsoid about its centre: M = R diag(1/a^2) R', c = -1; adj(M) = R diag(1/(bc)^2 ...) R'.
+void set_ellipsoid(const Ellipsoid& e, Solid& solid) {
+    const glm::dvec3 a2 = e.semi_axes * e.semi_axes;
+    const double smallest = std::min({a2.x, a2.y, a2.z});
+    const glm::dvec3 scaled = smallest / a2;  // at most 1
+    const glm::dmat3 body_from_scene = glm::transpose(scene_from_body(e.attitude));
+    const auto in_scene = [&](const glm::dvec3& diagonal) {
+        return congruent({diagonal.x, diagonal.y, diagonal.z, 0, 0, 0}, body_from_scene);
+    };
+    solid.anchor = e.centre;
+    solid.m = in_scene(scaled);
+    solid.adjugate = in_scene({scaled.y * scaled.z, scaled.x * scaled.z, scaled.x * scaled.y});
+    solid.determinant = scaled.x * scaled.y * scaled.z;
+    solid.c = -smallest;
+    solid.centre_value = smallest;
+    solid.ellipsoid = true;
+    solid.radius = std::max({e.semi_axes.x, e.semi_axes.y, e.semi_axes.z});
+}
+
+/// Hill about its centre, c above the apex: (x^2 + y^2)/a^2 - z^2/c^2 + 1 <= 0, scaled by a^2.
+void set_hill(const Hill& hill, Solid& solid) {
+    const double c = hill.radius_of_curvature * hill.slope * hill.slope, a = hill.radius_of_curvature * hill.slope;
+    const double steep = hill.slope * hill.slope;  // c^2/a^2
+    const double scale = std::min(1.0, steep);     // keeps the largest entry of M at 1
+    solid.anchor = {{hill.apex.metres.x, hill.apex.metres.y, hill.apex.metres.z + c}};
+    const double horizontal = scale, vertical = -scale / steep;
+    solid.m = {horizontal, horizontal, vertical, 0, 0, 0};
+    solid.adjugate = {horizontal * vertical, horizontal * vertical, horizontal * horizontal, 0, 0, 0};
+    solid.determinant = horizontal * horizontal * vertical;
+    // The anchor's rounding goes into w and c, so that the apex stays where the file puts it.
+    const double rounding = static_cast<double>((static_cast<Quad>(hill.apex.metres.z) + static_cast<Quad>(c)) -
+                                                static_cast<Quad>(solid.anchor.metres.z));
+    solid.w = {0, 0, -vertical * rounding};
+    solid.c = scale * a * a + vertical * rounding * rounding;
+    solid.centre_value = scale * a * a;
+    solid.planes.push_back({{0, 0, -1}, rounding, 0});
+}
+
+QuadQuadric expand(const GeneralQuadric& g) {
+    const auto& q = g.coefficients;
+    const auto half = [](double x) { return static_cast<Quad>(x) / 2; };
+    return {{{q[0], half(q[3]), half(q[5])}, {half(q[3]), q[1], half(q[4])}, {half(q[5]), half(q[4]), q[2]}},
+            {half(q[6]), half(q[7]), half(q[8])},
+            q[9]};
+}
+
+/// Solves M x = -v with full pivoting. Pivots below 1e-12 of the largest entry count as zero: their unknowns stay 0,
+/// which leaves the anchor of a cylinder on its axis and of a paraboloid near its axis. Returns the rank.
+int stationary_point(const QuadQuadric& q, Quad3& x) {
+    Quad a[3][4];
+    Quad largest = 0;
+    for (int r = 0; r < 3; ++r) {
+        for (int k = 0; k < 3; ++k) {
+            a[r][k] = q.m[r][k];
+            largest = std::max(largest, magnitude(a[r][k]));
+        }
+        a[r][3] = -q.v[r];
+    }
+    int column_of[3] = {0, 1, 2}, rank = 0;
+    for (; rank < 3; ++rank) {
+        int pr = rank, pc = rank;
+        for (int r = rank; r < 3; ++r)
+            for (int k = rank; k < 3; ++k)
+                if (magnitude(a[r][k]) > magnitude(a[pr][pc])) pr = r, pc = k;
+        if (magnitude(a[pr][pc]) <= largest * static_cast<Quad>(1e-12)) break;
+        for (int k = 0; k < 4; ++k) std::swap(a[rank][k], a[pr][k]);
+        for (auto& row : a) std::swap(row[rank], row[pc]);
+        std::swap(column_of[rank], column_of[pc]);
+        for (int r = 0; r < 3; ++r) {
+            if (r == rank) continue;
+            const Quad factor = a[r][rank] / a[rank][rank];
+            for (int k = rank; k < 4; ++k) a[r][k] -= factor * a[rank][k];
+        }
+    }
+    x = {0, 0, 0};
+    for (int r = 0; r < rank; ++r) x[static_cast<std::size_t>(column_of[r])] = a[r][3] / a[r][r];
+    return rank;
+}
+
+bool positive_definite(const Sym3& m, const Sym3& adjugate, double determinant) {
+    return m.xx > 0 && m.yy > 0 && m.zz > 0 && adjugate.xx > 0 && adjugate.yy > 0 && adjugate.zz > 0 && determinant > 0;
+}
+
+void set_general(const GeneralQuadric& general, Solid& solid) {
+    QuadQuadric q = expand(general);
+    Quad largest = 0;
+    for (const auto& row : q.m)
+        for (const Quad entry : row) largest = std::max(largest, magnitude(entry));
+    if (largest == 0)
+        for (const Quad entry : q.v) largest = std::max(largest, magnitude(entry));
+    if (largest == 0) largest = 1;
+    for (auto& row : q.m)
+        for (Quad& entry : row) entry /= largest;
+    for (Quad& entry : q.v) entry /= largest;
+    q.s /= largest;
+
+    Quad3 centre;
+    const int rank = stationary_point(q, centre);
+    for (int i = 0; i < 3; ++i) solid.anchor.metres[i] = static_cast<double>(centre[static_cast<std::size_t>(i)]);
+    Quad w[3], c = q.s;
+    for (int i = 0; i < 3; ++i) {
+        w[i] = q.v[i];
+        for (int k = 0; k < 3; ++k) w[i] += q.m[i][k] * static_cast<Quad>(solid.anchor.metres[k]);
+        c += (w[i] + q.v[i]) * static_cast<Quad>(solid.anchor.metres[i]);
+        solid.w[i] = static_cast<double>(w[i]);
+    }
+    const auto cofactor = [&](int r, int k) {
+        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        return q.m[r1][k1] * q.m[r2][k2] - q.m[r1][k2] * q.m[r2][k1];
+    };
+    const auto d = [](Quad v) { return static_cast<double>(v); };
+    solid.m = {d(q.m[0][0]), d(q.m[1][1]), d(q.m[2][2]), d(q.m[0][1]), d(q.m[0][2]), d(q.m[1][2])};
+    solid.adjugate = {d(cofactor(0, 0)), d(cofactor(1, 1)), d(cofactor(2, 2)),
+                      d(cofactor(0, 1)), d(cofactor(0, 2)), d(cofactor(1, 2))};
+    solid.determinant = d(q.m[0][0] * cofactor(0, 0) + q.m[0][1] * cofactor(0, 1) + q.m[0][2] * cofactor(0, 2));
+    solid.c = d(c);
+    solid.ellipsoid = rank == 3 && positive_definite(solid.m, solid.adjugate, solid.determinant);
+    solid.centre_value = rank == 3 ? std::abs(solid.c) : 0.0;
+    if (solid.ellipsoid) {
+        // Largest semi-axis squared is -c / (smallest eigenvalue) <= -c trace(adj)/det, since the others' product is at
+        // most that.
+        const double trace = solid.adjugate.xx + solid.adjugate.yy + solid.adjugate.zz;
+        solid.radius = std::sqrt(std::max(0.0, -solid.c) * trace / solid.determinant);
+    }
+}
+
+void add_plane(const BoundingPlane& plane, int surface, Solid& solid) {
+    const auto& b = plane.coefficients;
+    const Quad length2 =
+        static_cast<Quad>(b[0]) * b[0] + static_cast<Quad>(b[1]) * b[1] + static_cast<Quad>(b[2]) * b[2];
+    Quad offset = b[3];
+    for (int i = 0; i < 3; ++i)
+        offset += static_cast<Quad>(b[static_cast<std::size_t>(i)]) * static_cast<Quad>(solid.anchor.metres[i]);
+    const double length = std::sqrt(static_cast<double>(length2));
+    solid.planes.push_back({glm::dvec3(b[0], b[1], b[2]) / length, static_cast<double>(offset / length), surface});
+}
+
+/// Whether the solid goes on for ever in direction d: the quadric's asymptotic cone and every half-space contain it.
+/// Errs on the side of yes.
+bool recedes(const Solid& solid, const glm::dvec3& direction) {
+    const double length = glm::length(direction);
+    if (!(length > 1e-12)) return false;
+    const glm::dvec3 d = direction / length;
+    if (value(solid.m, d) > 1e-9) return false;
+    return std::all_of(solid.planes.begin(), solid.planes.end(),
+                       [&](const SolidPlane& p) { return glm::dot(p.normal, d) > -1e-9; });
+}
+
+/// Looks at every extreme direction of {d'Md <= 0, n_j.d >= 0}: if that cone is more than its tip, one of them is in
+/// it.
+bool endless(const Solid& solid) {
+    if (solid.ellipsoid) return false;
+    std::vector<glm::dvec3> normals;
+    for (const SolidPlane& p : solid.planes) normals.push_back(p.normal);
+    // Directions along an axis of M serve cones that no plane touches.
+    const auto both_ways = [&](const glm::dvec3& d) { return recedes(solid, d) || recedes(solid, -d); };
+    const Sym3& a = solid.adjugate;
+    for (const glm::dvec3& d :
+         {glm::dvec3(a.xx, a.xy, a.xz), glm::dvec3(a.xy, a.yy, a.yz), glm::dvec3(a.xz, a.yz, a.zz)})
+        if (both_ways(d)) return true;
+    for (int k = 0; k < 3; ++k) normals.push_back({k == 0, k == 1, k == 2});  // a frame to span directions with
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            if (both_ways(glm::cross(normals[i], normals[j]))) return true;
+        // Where plane i meets the asymptotic cone: a quadratic in the plane's own basis.
+        const glm::dvec3 n = normals[i];
+        const glm::dvec3 e =
+            glm::normalize(glm::cross(n, std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 f = glm::cross(n, e);
+        const double ee = value(solid.m, e), ef = value(solid.m, e, f), ff = value(solid.m, f);
+        const double discriminant = std::max(0.0, ef * ef - ee * ff);
+        for (const double sign : {-1.0, 1.0}) {
+            if (both_ways(e * (-ef + sign * std::sqrt(discriminant)) + f * ee)) return true;
+            if (both_ways(f * (-ef + sign * std::sqrt(discriminant)) + e * ff)) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+double Solid::quadric_at(const ScenePoint& p) const {
+    const long double x = static_cast<long double>(p.metres.x) - anchor.metres.x;
+    const long double y = static_cast<long double>(p.metres.y) - anchor.metres.y;
+    const long double z = static_cast<long double>(p.metres.z) - anchor.metres.z;
+    const long double q = x * (m.xx * x + 2.0L * (m.xy * y + m.xz * z + w.x)) +
+                          y * (m.yy * y + 2.0L * (m.yz * z + w.y)) +
+                          z * (m.zz * z + 2.0L * static_cast<long double>(w.z)) + c;
+    return static_cast<double>(q);
+}
+
+double Solid::plane_at(const SolidPlane& plane, const ScenePoint& p) const {
+    long double sum = plane.offset;
+    for (int i = 0; i < 3; ++i) sum += plane.normal[i] * (static_cast<long double>(p.metres[i]) - anchor.metres[i]);
+    return static_cast<double>(sum);
+}
+
+Solid make_solid(const Object& object) {
+    Solid solid;
+    solid.radius = std::numeric_limits<double>::infinity();
+    if (const auto* ellipsoid = std::get_if<Ellipsoid>(&object.shape)) set_ellipsoid(*ellipsoid, solid);
+    if (const auto* hill = std::get_if<Hill>(&object.shape)) set_hill(*hill, solid);
+    if (const auto* general = std::get_if<GeneralQuadric>(&object.shape)) set_general(*general, solid);
+    for (std::size_t j = 0; j < object.planes.size(); ++j) add_plane(object.planes[j], static_cast<int>(j) + 1, solid);
+    solid.may_be_endless = endless(solid);
+    return solid;
+}
+
+}  // namespace quadrig

@@ -17,6 +17,7 @@ using Vector = std::array<Real, 3>;
 using Matrix = std::array<Vector, 3>;
 
 constexpr Real kRelativeTolerance = 1e-10L;
+constexpr Real kLengthTolerance = 1e-9L;
 
 Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Real length(const Vector& a) { return std::sqrt(dot(a, a)); }
@@ -91,11 +92,12 @@ struct HalfSpace {
     Real offset = 0.0L;
 };
 
+/// The half-space is drawn in by what rounding leaves uncertain of the centre: a cone cut at its apex passes.
 HalfSpace along_axes(const BoundingPlane& plane, const PrincipalForm& form) {
     const auto& b = plane.coefficients;
     const Vector scene_normal{b[0], b[1], b[2]};
     const Real size = length(scene_normal);
-    HalfSpace half{{}, (dot(scene_normal, form.centre) + b[3]) / size};
+    HalfSpace half{{}, (dot(scene_normal, form.centre) + b[3]) / size - kLengthTolerance * length(form.centre)};
     for (std::size_t i = 0; i < 3; ++i) half.normal[i] = dot(scene_normal, form.directions[i]) / size;
     return half;
 }
@@ -131,7 +133,7 @@ bool certainly_reaches_into(const Sheet& sheet, const std::vector<HalfSpace>& ha
     for (const HalfSpace& half : half_spaces) scale = std::max(scale, std::abs(half.offset));
     const Real margin = 1e-6L * (scale > 0.0L ? scale : 1.0L);
     Vector q{sheet.side * (std::sqrt(sheet.c / sheet.a) + margin), 0.0L, 0.0L};
-    constexpr int kRounds = 300;
+    constexpr int kRounds = 3000;
     for (int round = 0; round < kRounds; ++round) {
         bool inside = true;
         const auto project = [&](Real value, const Vector& gradient) {

@@ -1,0 +1,64 @@
+#include "config/camera_path.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/config/temporary_file.h"
+
+using namespace quadrig;
+using tests::TemporaryFile;
+
+namespace {
+
+std::string complaint_about(std::string_view text, const std::string& key) {
+    const TemporaryFile file(text, ".json");
+    try {
+        config::read_camera_path(file.path());
+    } catch (const config::FileError& error) {
+        CHECK(error.key() == key);
+        CHECK_THAT(error.what(), Catch::StartsWith(file.path().string() + ":"));
+        return error.what();
+    }
+    FAIL("the file was accepted");
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("a camera path is a list of eyes, attitudes and fields of view") {
+    const TemporaryFile file(R"([
+        {"eye": [1, 2.5, -3], "attitude": [350, -10, 5], "fov": 60},
+        {"eye": [0, 0, 8], "attitude": [0, 0, 0], "fov": 45.5}])",
+                             ".json");
+    const auto cameras = config::read_camera_path(file.path());
+    REQUIRE(cameras.size() == 2);
+    CHECK(cameras[0].eye.metres == glm::dvec3(1.0, 2.5, -3.0));
+    CHECK(cameras[0].attitude.heading.value == 350.0);
+    CHECK(cameras[0].attitude.pitch.value == -10.0);
+    CHECK(cameras[0].attitude.roll.value == 5.0);
+    CHECK(cameras[1].horizontal_fov.value == 45.5);
+}
+
+TEST_CASE("mistakes in a camera path are refused with the camera's index and the key") {
+    const std::string good = R"({"eye": [0, 0, 8], "attitude": [0, 0, 0], "fov": 60})";
+    CHECK_THAT(complaint_about("[" + good + R"(, {"eye": [0, 0], "attitude": [0, 0, 0], "fov": 60}])", "[1].eye"),
+               Catch::Contains("expected an array of 3 numbers, found [0,0]"));
+    CHECK_THAT(complaint_about(R"([{"eye": [0, "x", 0], "attitude": [0, 0, 0], "fov": 60}])", "[0].eye[1]"),
+               Catch::Contains("found \"x\""));
+    CHECK_THAT(complaint_about(R"([{"eye": [0, 0, 0], "attitude": [0, 0, 361], "fov": 60}])", "[0].attitude[2]"),
+               Catch::Contains("expected degrees in -360..360, found 361"));
+    CHECK_THAT(complaint_about(R"([{"eye": [0, 0, 0], "attitude": [0, 0, 0], "fov": 0}])", "[0].fov"),
+               Catch::Contains("expected degrees in 1..170, found 0"));
+    CHECK_THAT(complaint_about(R"([{"eye": [0, 0, 0], "attitude": [0, 0, 0]}])", "[0].fov"),
+               Catch::Contains("expected this key, found none"));
+    CHECK_THAT(complaint_about(R"([{"eye": [0, 0, 0], "attitude": [0, 0, 0], "fov": 60, "roll": 1}])", "[0].roll"),
+               Catch::Contains("unknown key"));
+    CHECK_THAT(complaint_about("[3]", "[0]"), Catch::Contains("found 3"));
+    CHECK_THAT(complaint_about("[]", ""), Catch::Contains("at least one camera"));
+    CHECK_THAT(complaint_about("{}", ""), Catch::Contains("at least one camera"));
+}
+
+TEST_CASE("a camera path that is not JSON is refused with its line") {
+    CHECK_THAT(complaint_about("[\n\n{\"eye\": nan}]", ""), Catch::Contains(".json:3: not JSON: "));
+    CHECK_THAT(complaint_about("[{\"eye\": [1e999, 0, 0]}]", ""), Catch::Contains("not JSON: "));
+    CHECK_THAT(complaint_about("", ""), Catch::Contains("not JSON: "));
+}

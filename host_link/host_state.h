@@ -15,12 +15,12 @@ using Time = std::chrono::nanoseconds;
 
 /// One pose as the host sent it, with both of its times.
 struct PoseSample {
-    GeodeticPosition position;       ///< WGS-84, the link's datum offset applied
-    Attitude attitude;               ///< true heading, in the local level frame at that position
-    ScenePose pose;                  ///< the same in scene space
-    std::optional<Time> source_time; ///< by the host's own clock, unwrapped; absent where the protocol carries none
-    Time arrival{};                  ///< when the datagram came in (live) or was captured (replay)
-    std::uint64_t sequence = 0;      ///< counts accepted poses of the link from 1
+    GeodeticPosition position;        ///< WGS-84, the link's datum offset applied
+    Attitude attitude;                ///< true heading, in the local level frame at that position
+    ScenePose pose;                   ///< the same in scene space
+    std::optional<Time> source_time;  ///< by the host's own clock, unwrapped; absent where the protocol carries none
+    Time arrival{};                   ///< when the datagram came in (live) or was captured (replay)
+    std::uint64_t sequence = 0;       ///< counts accepted poses of the link from 1
 };
 
 /// Where the eye sits on the ownship: offset in body axes (metres, right, forward, up) and a turn from the body's axes.
@@ -44,15 +44,15 @@ enum class Mode { standby, operate, debug };
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
     Mode mode = Mode::operate;
-    bool smoothing = true;                 ///< host asks for motion smoothing (CIGI 3.3; on for protocols that cannot say)
-    std::optional<PoseSample> pose;        ///< newest pose of the ownship
-    std::optional<PoseSample> earlier;     ///< the one accepted before it
+    bool smoothing = true;              ///< host asks for motion smoothing (CIGI 3.3; on for protocols that cannot say)
+    std::optional<PoseSample> pose;     ///< newest pose of the ownship
+    std::optional<PoseSample> earlier;  ///< the one accepted before it
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
-    std::optional<double> visibility;      ///< m, meteorological optical range
-    std::optional<CivilTime> utc;          ///< date and time of day for the sun
+    std::optional<double> visibility;         ///< m, meteorological optical range
+    std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
-    std::optional<Time> newest_arrival;    ///< arrival of the newest accepted datagram
+    std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram
 };
 
 }  // namespace quadrig::host

@@ -1,0 +1,126 @@
+#include "host_link/link_url.h"
+
+#include <arpa/inet.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace quadrig::host {
+
+namespace {
+
+constexpr std::string_view kLoopback = "127.0.0.1";
+
+[[noreturn]] void fail(const LinkUrl& url, const std::string& why) {
+    throw LinkUrlError("link '" + url.text + "': " + why);
+}
+
+/// Splits at the first `separator`; without one, all is before it.
+std::pair<std::string_view, std::string_view> split(std::string_view text, char separator) {
+    const auto at = text.find(separator);
+    if (at == std::string_view::npos) return {text, {}};
+    return {text.substr(0, at), text.substr(at + 1)};
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+Protocol protocol_of(const LinkUrl& url, std::string_view scheme) {
+    if (scheme == "cigi") return Protocol::cigi;
+    if (scheme == "fdm") return Protocol::flightgear_fdm;
+    if (scheme == "can" || scheme == "modbus") fail(url, std::string(scheme) + " links are not supported yet");
+    fail(url, "unknown scheme; known are cigi: and fdm:");
+}
+
+bool is_numeric_address(int family, const std::string& address) {
+    std::array<unsigned char, sizeof(in6_addr)> binary{};
+    return inet_pton(family, address.c_str(), binary.data()) == 1;
+}
+
+std::string address_of(const LinkUrl& url, std::string_view text) {
+    if (text.empty() || text == "localhost") return std::string(kLoopback);
+    if (text.front() == '[') {
+        std::string address(text.substr(1, text.size() < 2 ? 0 : text.size() - 2));
+        if (text.back() != ']' || !is_numeric_address(AF_INET6, address))
+            fail(url, "bad IPv6 address " + std::string(text));
+        return address;
+    }
+    if (text.find(':') != std::string_view::npos) fail(url, "an IPv6 address stands in brackets: [::1]:8004");
+    if (!is_numeric_address(AF_INET, std::string(text)))
+        fail(url, "bad address '" + std::string(text) + "': give a numeric one, for example 127.0.0.1:8004");
+    return std::string(text);
+}
+
+void set_endpoint(LinkUrl& url, std::string_view endpoint) {
+    const auto colon = endpoint.rfind(':');
+    const auto bracket = endpoint.rfind(']');
+    if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
+        fail(url, "no port; give ADDRESS:PORT, for example 127.0.0.1:8004");
+    url.address = address_of(url, endpoint.substr(0, colon));
+    url.port = number<std::uint16_t>(endpoint.substr(colon + 1));
+    if (!url.port) fail(url, "bad port '" + std::string(endpoint.substr(colon + 1)) + "'");
+}
+
+void check_version(const LinkUrl& url, std::string_view value) {
+    if (value == "4" || value == "4.0") fail(url, "CIGI 4.0 is not supported yet");
+    for (const std::string_view known : {"3", "3.0", "3.1", "3.2", "3.3"})
+        if (value == known) return;
+    fail(url, "unknown CIGI version '" + std::string(value) + "'; known is 3.3");
+}
+
+std::uint16_t id_of(const LinkUrl& url, std::string_view key, std::string_view value) {
+    const auto id = number<std::uint16_t>(value);
+    if (!id) fail(url, std::string(key) + " is a number from 0 to 65535, not '" + std::string(value) + "'");
+    return *id;
+}
+
+void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    const bool cigi = url.protocol == Protocol::cigi;
+    if (cigi && key == "version") {
+        check_version(url, value);
+    } else if (cigi && key == "ownship") {
+        url.ownship = id_of(url, key, value);
+    } else if (cigi && key == "view") {
+        url.view = id_of(url, key, value);
+    } else if (key == "altitude_offset") {
+        url.altitude_offset = number<double>(value);
+        if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
+            fail(url, "altitude_offset is a number of metres");
+    } else {
+        fail(url, "unknown option '" + std::string(key) + "'");
+    }
+}
+
+}  // namespace
+
+std::string_view name_of(Protocol protocol) { return protocol == Protocol::cigi ? "cigi" : "fdm"; }
+
+LinkUrl parse_link_url(std::string_view text) {
+    LinkUrl url;
+    url.text = text;
+    url.address = kLoopback;
+    if (text.find(':') == std::string_view::npos) fail(url, "not a link; give for example cigi://127.0.0.1:8004");
+    const auto [scheme, rest] = split(text, ':');
+    url.protocol = protocol_of(url, scheme);
+    auto [endpoint, query] = split(rest, '?');
+    if (endpoint.starts_with("//")) {
+        set_endpoint(url, endpoint.substr(2));
+    } else if (!endpoint.empty()) {
+        fail(url, "expected '//' after '" + std::string(scheme) + ":'");
+    }
+    while (!query.empty()) {
+        const auto [option, more] = split(query, '&');
+        const auto [key, value] = split(option, '=');
+        set_option(url, key, value);
+        query = more;
+    }
+    return url;
+}
+
+}  // namespace quadrig::host

@@ -1,0 +1,142 @@
+#include "host_link/network_packet.h"
+
+#include <pcap/dlt.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "host_link/wire.h"
+
+#ifndef DLT_LINUX_SLL2
+#define DLT_LINUX_SLL2 276
+#endif
+
+namespace quadrig::host {
+
+namespace {
+
+using Bytes = std::span<const std::byte>;
+using Result = std::variant<UdpDatagram, NotUdp>;
+
+constexpr std::uint16_t kEtherIpv4 = 0x0800, kEtherIpv6 = 0x86DD, kEtherVlan = 0x8100, kEtherServiceVlan = 0x88A8,
+                        kEtherOldQinQ = 0x9100;
+constexpr std::uint8_t kHopByHop = 0, kUdp = 17, kRouting = 43, kFragment = 44, kDestinationOptions = 60;
+constexpr std::size_t kUdpHeader = 8, kIpv6Header = 40, kIpv4Header = 20;
+
+std::uint8_t u8(Bytes b, std::size_t at) { return std::to_integer<std::uint8_t>(b[at]); }
+std::uint16_t u16(Bytes b, std::size_t at) { return load<std::uint16_t>(b, at, ByteOrder::big); }
+
+IpAddress address(Bytes bytes, bool v6) {
+    IpAddress result{v6, {}};
+    std::memcpy(result.bytes.data(), bytes.data(), bytes.size());
+    return result;
+}
+
+Result udp(Bytes segment, const IpAddress& source, const IpAddress& destination) {
+    if (segment.size() < kUdpHeader) return NotUdp::damaged;
+    const std::size_t length = u16(segment, 4);
+    if (length < kUdpHeader) return NotUdp::damaged;
+    const Bytes payload = segment.subspan(kUdpHeader, std::min(length, segment.size()) - kUdpHeader);
+    return UdpDatagram{source, destination, u16(segment, 0), u16(segment, 2), payload};
+}
+
+Result ipv4(Bytes packet) {
+    if (packet.size() < kIpv4Header) return NotUdp::damaged;
+    const std::size_t header = (u8(packet, 0) & 0x0FU) * 4U;
+    if (header < kIpv4Header || header > packet.size()) return NotUdp::damaged;
+    if (u8(packet, 9) != kUdp) return NotUdp::other_protocol;
+    if ((u16(packet, 6) & 0x3FFFU) != 0) return NotUdp::fragment;
+    // 0: the network card was to fill it in (segmentation offload). Ethernet pads short packets beyond the total
+    // length.
+    const std::size_t total = u16(packet, 2) == 0 ? packet.size() : u16(packet, 2);
+    if (total < header) return NotUdp::damaged;
+    const Bytes body = packet.first(std::min(total, packet.size())).subspan(header);
+    return udp(body, address(packet.subspan(12, 4), false), address(packet.subspan(16, 4), false));
+}
+
+Result ipv6(Bytes packet) {
+    if (packet.size() < kIpv6Header) return NotUdp::damaged;
+    const IpAddress source = address(packet.subspan(8, 16), true), destination = address(packet.subspan(24, 16), true);
+    std::uint8_t next = u8(packet, 6);
+    const std::size_t length = u16(packet, 4);
+    Bytes body = packet.subspan(kIpv6Header);
+    if (length != 0) body = body.first(std::min(length, body.size()));
+    while (next == kHopByHop || next == kRouting || next == kDestinationOptions) {
+        if (body.size() < 8) return NotUdp::damaged;
+        const std::size_t size = (u8(body, 1) + 1U) * 8U;
+        if (size > body.size()) return NotUdp::damaged;
+        next = u8(body, 0);
+        body = body.subspan(size);
+    }
+    if (next == kFragment) return NotUdp::fragment;
+    if (next != kUdp) return NotUdp::other_protocol;
+    return udp(body, source, destination);
+}
+
+Result ip(Bytes packet) {
+    if (packet.empty()) return NotUdp::damaged;
+    switch (u8(packet, 0) >> 4) {
+        case 4:
+            return ipv4(packet);
+        case 6:
+            return ipv6(packet);
+        default:
+            return NotUdp::other_protocol;
+    }
+}
+
+/// `type_at`: where the EtherType stands; the network packet, or a VLAN tag, follows `header` bytes from the start.
+Result ether(Bytes packet, std::size_t type_at, std::size_t header) {
+    if (packet.size() < header) return NotUdp::damaged;
+    std::uint16_t type = u16(packet, type_at);
+    packet = packet.subspan(header);
+    while (type == kEtherVlan || type == kEtherServiceVlan || type == kEtherOldQinQ) {
+        if (packet.size() < 4) return NotUdp::damaged;
+        type = u16(packet, 2);
+        packet = packet.subspan(4);
+    }
+    if (type == kEtherIpv4 || type == kEtherIpv6) return ip(packet);
+    return NotUdp::other_protocol;
+}
+
+}  // namespace
+
+bool is_known_link_type(int link_type) {
+    switch (link_type) {
+        case DLT_EN10MB:
+        case DLT_RAW:
+        case DLT_IPV4:
+        case DLT_IPV6:
+        case DLT_LINUX_SLL:
+        case DLT_LINUX_SLL2:
+        case DLT_NULL:
+        case DLT_LOOP:
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::variant<UdpDatagram, NotUdp> udp_datagram(int link_type, std::span<const std::byte> packet) {
+    switch (link_type) {
+        case DLT_EN10MB:
+            return ether(packet, 12, 14);
+        case DLT_LINUX_SLL:
+            return ether(packet, 14, 16);
+        case DLT_LINUX_SLL2:
+            return ether(packet, 0, 20);
+        case DLT_RAW:
+        case DLT_IPV4:
+        case DLT_IPV6:
+            return ip(packet);
+        // Four bytes of address family, whose numbers differ between systems: the IP version says the same.
+        case DLT_NULL:
+        case DLT_LOOP:
+            return packet.size() < 4 ? Result(NotUdp::damaged) : ip(packet.subspan(4));
+        default:
+            return NotUdp::other_protocol;
+    }
+}
+
+}  // namespace quadrig::host

@@ -1,0 +1,43 @@
+/// Why something a host sent was not taken. Every reason has its own counter, and its name in reports.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace quadrig::host {
+
+enum class Reject : std::uint8_t {
+    truncated,              ///< the datagram ends before its packets do
+    bad_size,               ///< a packet size below 2, not a multiple of 8, or not the one of its packet id
+    no_ig_control,          ///< a CIGI message of a host starts with IG Control
+    start_of_frame,         ///< the message of an image generator: it starts with Start Of Frame
+    bad_byte_order,         ///< the byte swap field holds neither 0x8000 nor 0x0080
+    unknown_version,        ///< a major version (CIGI) or version (FDM) that is not read here
+    cigi_4_0,               ///< CIGI 4.0
+    byte_swapped_version,   ///< FDM: 24 or 25 in little-endian order; the host forgot to convert to network order
+    version_size_mismatch,  ///< FDM: the version of one layout with the size of another
+    out_of_range,           ///< a number that is not finite, or outside the range its field has
+    attached_ownship,       ///< the ownship is attached to another entity: its position is not geodetic
+    view_of_other_entity,   ///< View Control puts our view on an entity that is not the ownship
+    count
+};
+
+inline constexpr std::size_t kRejectCount = static_cast<std::size_t>(Reject::count);
+inline constexpr std::array<std::string_view, kRejectCount> kRejectNames{"truncated",
+                                                                         "bad_size",
+                                                                         "no_ig_control",
+                                                                         "start_of_frame",
+                                                                         "bad_byte_order",
+                                                                         "unknown_version",
+                                                                         "cigi_4_0",
+                                                                         "byte_swapped_version",
+                                                                         "version_size_mismatch",
+                                                                         "out_of_range",
+                                                                         "attached_ownship",
+                                                                         "view_of_other_entity"};
+
+constexpr std::string_view name_of(Reject reason) { return kRejectNames[static_cast<std::size_t>(reason)]; }
+
+}  // namespace quadrig::host

@@ -1,0 +1,121 @@
+/// One link's conversation: datagrams go in with their arrival times, the newest HostState comes out. Pure: no sockets,
+/// no clock.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "host_link/cigi.h"
+#include "host_link/flightgear_fdm.h"
+#include "host_link/frame_order.h"
+#include "host_link/geodesy.h"
+#include "host_link/host_state.h"
+#include "host_link/link_statistics.h"
+#include "host_link/link_url.h"
+#include "host_link/source_clock.h"
+
+namespace quadrig::host {
+
+struct SessionOptions {
+    Protocol protocol = Protocol::cigi;
+    GeodeticPosition scene_origin;
+    double altitude_offset = 0.0;              ///< m, added to the host's altitudes
+    std::uint16_t ownship = 0;                 ///< entity id
+    std::optional<std::uint16_t> view;         ///< view id; absent: the first one that the host names
+    std::optional<ViewWindow> default_window;  ///< fills up what a View Definition leaves out
+    Time gap_threshold = std::chrono::milliseconds(50);
+};
+
+/// Options of a link's URL over a scene's origin.
+SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene_origin);
+
+enum class Verdict : std::uint8_t {
+    pose,       ///< a new pose of the ownship was taken
+    no_pose,    ///< taken, but without a pose to take
+    duplicate,  ///< not taken
+    reordered,  ///< not taken: newer ones came first
+    rejected    ///< not taken, for the reason counted
+};
+
+/// What a Start Of Frame needs to know of the host. A plain value.
+struct ReplyContext {
+    ByteOrder order = ByteOrder::little;
+    std::uint8_t minor_version = 3;
+    bool separate_counters = true;  ///< 3.2 and later
+    std::int8_t database = 0;
+    Mode mode = Mode::standby;
+    std::uint32_t host_frame = 0;
+};
+
+/// Start Of Frame in the host's own byte order and version; returns its size. `time` is the image generator's.
+/// The scene is there before the first frame is, so a database that the host asks for is answered as loaded.
+std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time,
+                           std::span<std::byte, cigi::StartOfFrame::kSize> out);
+
+class Session {
+  public:
+    static constexpr std::size_t kMaxEntities = 256;
+
+    explicit Session(const SessionOptions& options);
+
+    /// Folds a datagram in. A datagram is taken whole or not at all, but for single packets whose values are out of
+    /// range. Allocates nothing.
+    Verdict accept(std::span<const std::byte> datagram, Time arrival);
+
+    [[nodiscard]] const HostState& state() const { return state_; }
+    [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
+    /// Present once a CIGI host has spoken.
+    [[nodiscard]] const std::optional<ReplyContext>& reply_context() const { return reply_; }
+    /// Newest Entity Control of every entity but the ownship, in the order they appeared.
+    [[nodiscard]] std::span<const cigi::EntityControl> entities() const { return {entities_.data(), entity_count_}; }
+
+  private:
+    struct Candidate {
+        GeodeticPosition position;
+        Attitude attitude;
+    };
+    struct Window {
+        std::optional<Degrees> left, right, top, bottom;
+    };
+
+    Verdict reject(Reject reason);
+    Verdict take(Time arrival, const std::optional<Candidate>& pose, std::optional<Time> source_time);
+    void restart();
+    void commit_pose(const Candidate& pose, Time arrival, std::optional<Time> source_time);
+    void run_ephemeris(Time arrival);
+
+    Verdict accept_fdm(std::span<const std::byte> datagram, Time arrival);
+    Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
+    Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
+    void apply(const cigi::IgControl& packet);
+    std::optional<Candidate> apply(const cigi::EntityControl& packet);
+    void apply(const cigi::ViewControl& packet);
+    void apply(const cigi::ViewDefinition& packet);
+    void apply(const cigi::CelestialSphereControl& packet, Time arrival);
+    void apply(const cigi::AtmosphereControl& packet);
+    bool is_our_view(std::uint16_t view, std::uint8_t group);
+
+    SessionOptions options_;
+    SceneFrame scene_frame_;
+    HostState state_;
+    LinkStatistics statistics_;
+    std::optional<ReplyContext> reply_;
+    FrameOrder frame_order_;
+    CigiClock cigi_clock_;
+    FdmClock fdm_clock_;
+    std::optional<std::uint16_t> view_;
+    Window window_;
+    struct Ephemeris {
+        cigi::CelestialSphereControl packet;
+        Time since{};
+    };
+    std::optional<Ephemeris> ephemeris_;
+    bool comparable_ = false;  ///< the next pose follows the one before it on the same clock
+    std::array<cigi::EntityControl, kMaxEntities> entities_{};
+    std::size_t entity_count_ = 0;
+};
+
+}  // namespace quadrig::host

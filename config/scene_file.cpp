@@ -20,7 +20,6 @@ constexpr NumberRule kLatitude{"degrees in -90..90", [](double x) { return x >= 
 constexpr NumberRule kLongitude{"degrees in -180..360", [](double x) { return x >= -180.0 && x <= 360.0; }};
 constexpr NumberRule kTurn{"degrees in -360..360", [](double x) { return x >= -360.0 && x <= 360.0; }};
 constexpr NumberRule kThreshold{"a threshold in -10..10", [](double x) { return x >= -10.0 && x <= 10.0; }};
-constexpr std::size_t kAnyCount = 100'000;
 
 /// Names given so far, each with the key of the table that has it.
 using Names = std::unordered_map<std::string, std::string>;

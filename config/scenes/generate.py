@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Writes the landscapes of the recorded flights and the village beside itself: python3 generate.py
+
+Nothing needs this at build or run time; the scenes are part of the repository, and the same script gives the same files.
+"""
+
+import math
+import pathlib
+import random
+
+from landscape import Range, cloud, number, numbers, paint, perturbed, ellipsoid, scene, scene_object, texture, tree
+from village import village
+
+# Where the Cessna's eye goes, east and north of the origin: round on the ground, off, and climbing to 95 m.
+TAKEOFF_PATH = [(10, -1), (-26, 18), (-60, 15), (-84, -5), (-136, -71), (-185, -164), (-240, -270), (-283, -368), (-315, -467),
+                (-348, -573), (-380, -679), (-409, -778), (-440, -876), (-472, -982), (-620, -1420)]
+
+TAKEOFF_HEADER = """
+# The landscape of the recorded take-off of a Cessna 172. Written by generate.py; edit that.
+[scene]
+name = "takeoff"
+origin = { latitude = 29.7597, longitude = -95.1640, altitude = -0.6 }
+[sun]
+azimuth = 75.0
+elevation = 36.0
+ambient = 0.42
+[sky]
+horizon = [0.60, 0.71, 0.83]
+zenith = [0.12, 0.27, 0.60]
+[haze]
+visibility = 26000.0
+colour = [0.58, 0.69, 0.81]
+[ground]
+colour = [0.30, 0.41, 0.14]
+texture = "grass"
+texture_weight = 0.72
+[[cloud_deck]]
+altitude = 3200.0
+colour = [1.0, 1.0, 1.0]
+texture = "high-cloud"
+texture_weight = 0.1
+translucence = { threshold = 0.34, limb_threshold = 0.34, softness = 0.35 }
+"""
+
+
+def distance_to_path(x, y, path):
+    nearest = math.inf
+    for (ax, ay), (bx, by) in zip(path, path[1:]):
+        dx, dy = bx - ax, by - ay
+        along = max(0.0, min(1.0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)))
+        nearest = min(nearest, math.hypot(x - ax - along * dx, y - ay - along * dy))
+    return nearest
+
+
+def takeoff():
+    dice = random.Random(1984)
+    ahead = Range("ridge", 0.42, 480.0)
+    for i in range(13):
+        along = -2600.0 + 430.0 * i + dice.uniform(-120, 120)
+        back = dice.uniform(-350, 350)
+        ahead.add(-1500.0 + along * 0.93 - back * 0.36, -4300.0 - along * 0.36 - back * 0.93, dice.uniform(150, 360))
+    west = Range("west-down", 0.3, 190.0)
+    for i in range(11):
+        west.add(-900.0 + dice.uniform(-500, 350), -650.0 + 190.0 * i + dice.uniform(-60, 60), dice.uniform(30, 95))
+    east = Range("east-down", 0.3, 170.0)
+    for i in range(8):
+        east.add(330.0 + 60.0 * i + dice.uniform(-160, 300), -1500.0 - 230.0 * i + dice.uniform(-90, 90), dice.uniform(25, 80))
+    far = Range("mountain", 0.6, 1500.0)
+    for i in range(10):
+        bearing = math.radians(150.0 + 17.0 * i + dice.uniform(-6, 6))
+        distance = dice.uniform(9000, 13000)
+        far.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(550, 1100))
+    ranges = [ahead, west, east, far]
+
+    parts = [texture("grass", 420.0, 7, dice), texture("hillside", 260.0, 6, dice, 0.3), texture("rock", 1500.0, 6, dice, 0.3),
+             texture("foliage", 7.0, 6, dice, 0.75), texture("cumulus", 420.0, 6, dice, 0.6, (4.0, 1.0)),
+             texture("high-cloud", 9000.0, 6, dice, 0.0, (12.0, 5.0))]
+    parts += ahead.objects(dice, (0.40, 0.37, 0.18), "hillside", 0.65)
+    parts += west.objects(dice, (0.36, 0.42, 0.16), "hillside", 0.65)
+    parts += east.objects(dice, (0.42, 0.39, 0.19), "hillside", 0.65)
+    parts += far.objects(dice, (0.34, 0.36, 0.28), "rock", 0.55)
+
+    trees = []
+
+    def plant(x, y, height):
+        clear = 34.0 if y > -300.0 else 60.0
+        if distance_to_path(x, y, TAKEOFF_PATH) < clear:
+            return
+        ground = max(r.height(x, y) for r in ranges[:3])
+        trees.append(tree(dice, f"tree-{len(trees) + 1}", x, y, ground, height))
+
+    def grove(x, y, spread, count, height):
+        for _ in range(count):
+            plant(x + dice.gauss(0, spread), y + dice.gauss(0, spread), height * dice.uniform(0.65, 1.3))
+
+    for i in range(34):  # woods along both sides of the runway
+        t = dice.uniform(0.0, 1.0)
+        side = dice.choice((-1.0, 1.0))
+        px, py = -136.0 - 320.0 * t, -71.0 - 1000.0 * t
+        grove(px + side * dice.uniform(75, 150), py + dice.uniform(-40, 40), 24.0, 11, 10.0)
+    for i in range(14):  # round the apron
+        bearing = math.radians(dice.uniform(150, 390))
+        grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 26.0, 11, 9.0)
+    for i in range(34):  # out in the fields
+        grove(dice.uniform(-1300, 700), dice.uniform(-2900, -900), 45.0, 9, 12.0)
+    for i in range(200):  # on the downs
+        hills = dice.choice((west, east))
+        x, y, _ = dice.choice(hills.hills)
+        plant(x + dice.gauss(0, 130), y + dice.gauss(0, 130), dice.uniform(7, 13))
+    for i in range(120):  # on the ridge
+        x, y, _ = dice.choice(ahead.hills)
+        plant(x + dice.gauss(0, 260), y + dice.gauss(0, 260), dice.uniform(11, 18))
+    parts += trees
+
+    for i in range(38):
+        bearing = math.radians(dice.uniform(140, 390))
+        distance = dice.uniform(2500, 12000)
+        parts.append(cloud(dice, f"cloud-{i + 1}", distance * math.sin(bearing), distance * math.cos(bearing),
+                           dice.uniform(700, 1500), dice.uniform(260, 650)))
+    return scene(TAKEOFF_HEADER, parts)
+
+
+TURN_HEADER = """
+# The landscape of the recorded turn of a Boeing 737 at 7620 m. Written by generate.py; edit that.
+[scene]
+name = "turn"
+origin = { latitude = 47.25, longitude = 122.07, altitude = 200.0 }
+[sun]
+azimuth = 215.0
+elevation = 42.0
+ambient = 0.4
+[sky]
+horizon = [0.55, 0.70, 0.86]
+zenith = [0.07, 0.19, 0.52]
+[haze]
+visibility = 140000.0
+colour = [0.50, 0.64, 0.80]
+[ground]
+colour = [0.28, 0.38, 0.15]
+texture = "plain"
+texture_weight = 0.75
+[[cloud_deck]]
+altitude = 3900.0
+colour = [1.0, 1.0, 1.0]
+texture = "broken-cloud"
+texture_weight = 0.2
+translucence = { threshold = 0.40, limb_threshold = 0.40, softness = 0.16 }
+[[cloud_deck]]
+altitude = 11500.0
+colour = [1.0, 1.0, 1.0]
+texture = "high-cloud"
+texture_weight = 0.1
+translucence = { threshold = 0.36, limb_threshold = 0.36, softness = 0.4 }
+"""
+
+
+def turn():
+    dice = random.Random(737)
+    parts = [texture("plain", 9000.0, 7, dice), texture("mountainside", 5200.0, 7, dice, 0.3), texture("wood", 900.0, 6, dice, 0.5),
+             texture("cumulus", 1500.0, 6, dice, 0.6, (12.0, 4.0)), texture("broken-cloud", 7000.0, 7, dice, 0.0, (14.0, 6.0)),
+             texture("high-cloud", 30000.0, 6, dice, 0.0, (25.0, 5.0))]
+    first_chain = Range("north-chain", 0.5, 3300.0)
+    for i in range(16):
+        first_chain.add(-14000.0 + 2600.0 * i + dice.uniform(-900, 900), 19000.0 + 500.0 * i + dice.uniform(-2200, 2200),
+                        dice.uniform(900, 2500))
+    second_chain = Range("east-chain", 0.55, 3800.0)
+    for i in range(16):
+        second_chain.add(25000.0 + 900.0 * i + dice.uniform(-2500, 2500), 21000.0 - 3000.0 * i + dice.uniform(-900, 900),
+                         dice.uniform(1100, 3000))
+    foothills = Range("foothill", 0.25, 900.0)
+    for i in range(18):
+        foothills.add(dice.uniform(-9000, 21000), dice.uniform(6000, 15000), dice.uniform(120, 480))
+    far_chain = Range("far-chain", 0.6, 4200.0)
+    for i in range(20):
+        bearing = math.radians(-35.0 + 9.5 * i + dice.uniform(-3, 3))
+        distance = dice.uniform(52000, 70000)
+        far_chain.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(1500, 3200))
+    parts += first_chain.objects(dice, (0.33, 0.33, 0.20), "mountainside", 0.62)
+    parts += second_chain.objects(dice, (0.36, 0.33, 0.25), "mountainside", 0.62)
+    parts += foothills.objects(dice, (0.27, 0.36, 0.15), "mountainside", 0.62)
+    parts += far_chain.objects(dice, (0.36, 0.36, 0.34), "mountainside", 0.55)
+
+    for i in range(260):  # a wood is a low translucent dome from up here
+        bearing = math.radians(dice.uniform(-40, 150))
+        distance = dice.uniform(9000, 36000)
+        x, y = distance * math.sin(bearing), distance * math.cos(bearing)
+        if max(r.height(x, y) for r in (first_chain, second_chain, foothills)) > 0.0:
+            continue
+        size = dice.uniform(300, 1100)
+        shape = ellipsoid((x, y, 0.0), (size, size * dice.uniform(0.4, 0.9), dice.uniform(25, 45)), dice.uniform(0, 180))
+        parts.append(scene_object(f"wood-{i + 1}", shape, [], paint(perturbed(dice, (0.10, 0.22, 0.07), 0.3), "wood", 0.5,
+                                                                   (0.12, 0.3, 0.08))))
+    for i in range(70):
+        bearing = math.radians(dice.uniform(-50, 150))
+        distance = dice.uniform(9000, 60000)
+        parts.append(cloud(dice, f"cloud-{i + 1}", distance * math.sin(bearing), distance * math.cos(bearing),
+                           dice.uniform(3300, 4600), dice.uniform(900, 2600), flat_bottom=True))
+    return scene(TURN_HEADER, parts)
+
+
+def main():
+    here = pathlib.Path(__file__).parent
+    for name, text in {"takeoff": takeoff(), "turn": turn(), "village": village()}.items():
+        (here / f"{name}.toml").write_text(text, encoding="utf-8")
+        print(f"{name}.toml: {text.count('[[object]]')} objects")
+
+
+if __name__ == "__main__":
+    main()

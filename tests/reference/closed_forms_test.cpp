@@ -143,3 +143,18 @@ TEST_CASE("an oblique quadric of ten coefficients is met where its equation vani
     CHECK(seen.object == 0);
     CHECK(seen.depth == exactly((40 - t) * std::sqrt(3.0)));
 }
+
+TEST_CASE("a tilted paraboloid is met at its apex along its axis, however its coefficients were rounded") {
+    // |p|^2 - (t.p)^2 - t.p <= 0 with t a unit vector, to double precision: in exact terms now an ellipsoid, now a
+    // hyperboloid.
+    for (int tilt = 1; tilt <= 40; ++tilt) {
+        const View axis = look({0, 0, 0}, {{11.0 * tilt}, {2.0 * tilt - 3.0}, {0}});
+        const glm::dvec3 t(axis.eye_from_scene[0][1], axis.eye_from_scene[1][1], axis.eye_from_scene[2][1]);
+        const Scene scene = scene_of({solid(GeneralQuadric{{1 - t.x * t.x, 1 - t.y * t.y, 1 - t.z * t.z, -2 * t.x * t.y,
+                                                            -2 * t.y * t.z, -2 * t.x * t.z, -t.x, -t.y, -t.z, 0}})});
+        View view = axis;
+        view.eye.metres = -30.0 * t;
+        INFO("tilt " << tilt);
+        CHECK(seen_in_the_middle(scene, view).depth == Approx(30).epsilon(1e-12));
+    }
+}

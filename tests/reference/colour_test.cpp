@@ -173,6 +173,29 @@ TEST_CASE("the limb function opens a translucent ball towards its limb and leave
     }
 }
 
+TEST_CASE("the limb function of ten coefficients does not depend on their scale, and is 1 without a centre") {
+    Scene scene = dusk();
+    scene.sun.ambient = 1.0;
+    const Translucence holes{0.25, 0.45, 0.8};
+    const auto red_through = [&](const Shape& shape, glm::dvec3 eye) {
+        scene.objects = {solid(shape)};
+        scene.objects[0].paint = {{1.0, 1.0, 1.0}, 0u, 0.0, holes};
+        return middle_of(scene, look(eye, {{0}, {90}, {0}})).r;
+    };
+    const double zenith = scene.sky.zenith.r, g = 1 - 9.0 / 25;
+    const double opacity = 0.5 - 0.2 * (1 - g) / 0.8;
+    for (const double scale : {1e-12, 1.0, 1e12}) {
+        const Shape ball = GeneralQuadric{{scale, scale, scale, 0, 0, 0, -20 * scale, 0, 0, 75 * scale}};
+        CHECK(red_through(ball, {13, 0, -40}) == Approx(opacity + (1 - opacity) * zenith).epsilon(1e-6));
+    }
+    const Shape paraboloid = GeneralQuadric{{1, 1, 0, 0, 0, 0, 0, 0, -1, 0}};
+    const Shape cone_upwards = GeneralQuadric{{1, 1, -1, 0, 0, 0, 0, 0, 0, 0}};
+    CHECK(red_through(paraboloid, {3, 0, -40}) == Approx(0.5 + 0.5 * zenith).epsilon(1e-6));
+    scene.objects = {solid(cone_upwards, {{{0, 0, 1, 0}}})};
+    scene.objects[0].paint = {{1.0, 1.0, 1.0}, 0u, 0.0, holes};
+    CHECK(middle_of(scene, look_north({3, -40, 10})).r == Approx(0.5 + 0.5 * scene.sky.horizon.r).epsilon(1e-6));
+}
+
 TEST_CASE("a hill's limb function is 1 where the ray has no lowest point of Q, and falls to 0 on the limb") {
     // A level ray at a distance s beside the axis, b below the centre: min Q = 1 + s^2/a^2 - b^2/c^2, |Q(centre)| = 1.
     const double r = 40, m = 0.5, c = r * m * m, a = r * m, b = 1.3 * c;

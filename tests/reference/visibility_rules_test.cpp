@@ -76,6 +76,23 @@ TEST_CASE("the nearest solid wins, equal depths go to the first in the file, and
     CHECK(from_below.depth == Approx(3).epsilon(1e-15));
 }
 
+TEST_CASE("a face given twice at another scale is one face: the first object has it on every ray") {
+    const auto slab = [](double scale) {
+        const Shape quadric = GeneralQuadric{{scale, scale, scale, 0, 0, 0, 0, 0, 0, -900 * scale}};
+        return solid(quadric, {{{-scale, -3 * scale, -7 * scale, 50 * scale}}});
+    };
+    const View view = look({3.1, 41.7, 30.3}, {{183}, {-31}, {13}});
+    for (const auto& [first, second] : {std::pair{1.0, 3.0}, {3.0, 1.0}, {5.0, 7.0}, {7.0, 5.0}}) {
+        const GroundTruth truth = ground_truth(scene_of({slab(first), slab(second)}), view);
+        int drawn = 0;
+        for (const std::int32_t object : truth.object_ids) {
+            REQUIRE(object != 1);
+            drawn += object == 0;
+        }
+        CHECK(drawn > 1000);
+    }
+}
+
 TEST_CASE("the ground is seen from either side, below and above the horizon respectively") {
     const Scene scene = with_ground({});
     const GroundTruth above = ground_truth(scene, four_by_four({7, 8, 3})),
@@ -103,6 +120,11 @@ TEST_CASE("solids without thickness and rays that only touch draw nothing") {
     CHECK(draws_nothing(solid(GeneralQuadric{{1, 1, 1, 0, 0, 0, 0, -14, 0, 49.01}})));  // empty
     CHECK(draws_nothing(solid(sphere({0, 7, 0}, 3), {{{1, 2, 3, -13}}, {{-3, -6, -9, 39}}})));
     CHECK_FALSE(draws_nothing(solid(sphere({0, 7, 0}, 3), {{{1, 2, 3, -13}}, {{-3, -6, -9, 39.001}}})));
+
+    // A ray that runs in a bounding plane is not inside it.
+    const View level{{{0, 0, 2}}, glm::dmat3(1.0), {1, 1, -0.5, 1.0, 0.5, 1.0}};
+    CHECK(seen_in_the_middle(scene_of({solid(sphere({0, 20, 2}, 5), {{{0, 0, 1, -2}}})}), level).object == kSkyId);
+    CHECK(seen_in_the_middle(scene_of({solid(sphere({0, 20, 2}, 5), {{{0, 0, 1, -1.9}}})}), level).object == 0);
 
     // The middle ray has the direction (3, 4, 0) / 4 and touches the cylinder of radius 5 about (10, 5) at (6, 8).
     const View touching{{{0, 0, 0}}, glm::dmat3(1.0), {1, 1, 0.5, 0.5, 1.0, 2.0}};

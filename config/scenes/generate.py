@@ -22,14 +22,14 @@ name = "takeoff"
 origin = { latitude = 29.7597, longitude = -95.1640, altitude = -0.6 }
 [sun]
 azimuth = 75.0
-elevation = 36.0
-ambient = 0.42
+elevation = 30.0
+ambient = 0.5
 [sky]
 horizon = [0.60, 0.71, 0.83]
 zenith = [0.12, 0.27, 0.60]
 [haze]
-visibility = 26000.0
-colour = [0.58, 0.69, 0.81]
+visibility = 38000.0
+colour = [0.60, 0.71, 0.83]
 [ground]
 colour = [0.30, 0.41, 0.14]
 texture = "grass"
@@ -65,14 +65,14 @@ def takeoff():
     east = Range("east-down", 0.3, 170.0)
     for i in range(8):
         east.add(330.0 + 60.0 * i + dice.uniform(-160, 300), -1500.0 - 230.0 * i + dice.uniform(-90, 90), dice.uniform(25, 80))
-    far = Range("mountain", 0.6, 1500.0)
-    for i in range(10):
-        bearing = math.radians(150.0 + 17.0 * i + dice.uniform(-6, 6))
+    far = Range("mountain", 0.62, 1300.0)
+    for i in range(16):
+        bearing = math.radians(145.0 + 11.0 * i + dice.uniform(-6, 6))
         distance = dice.uniform(9000, 13000)
-        far.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(550, 1100))
+        far.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(650, 1180))
     ranges = [ahead, west, east, far]
 
-    parts = [texture("grass", 420.0, 7, dice), texture("hillside", 260.0, 6, dice, 0.3), texture("rock", 1500.0, 6, dice, 0.3),
+    parts = [texture("grass", 330.0, 7, dice, step=2.25), texture("hillside", 260.0, 6, dice, 0.3), texture("rock", 1500.0, 6, dice, 0.3),
              texture("foliage", 7.0, 6, dice, 0.75), texture("cumulus", 420.0, 6, dice, 0.6, (4.0, 1.0)),
              texture("high-cloud", 9000.0, 6, dice, 0.0, (12.0, 5.0))]
     parts += ahead.objects(dice, (0.40, 0.37, 0.18), "hillside", 0.65)
@@ -93,23 +93,23 @@ def takeoff():
         for _ in range(count):
             plant(x + dice.gauss(0, spread), y + dice.gauss(0, spread), height * dice.uniform(0.65, 1.3))
 
-    for i in range(34):  # woods along both sides of the runway
+    for i in range(42):  # woods along both sides of the runway
         t = dice.uniform(0.0, 1.0)
         side = dice.choice((-1.0, 1.0))
         px, py = -136.0 - 320.0 * t, -71.0 - 1000.0 * t
-        grove(px + side * dice.uniform(75, 150), py + dice.uniform(-40, 40), 24.0, 11, 10.0)
+        grove(px + side * dice.uniform(55, 140), py + dice.uniform(-40, 40), 24.0, 11, 10.0)
     for i in range(14):  # round the apron
         bearing = math.radians(dice.uniform(150, 390))
         grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 26.0, 11, 9.0)
-    for i in range(34):  # out in the fields
-        grove(dice.uniform(-1300, 700), dice.uniform(-2900, -900), 45.0, 9, 12.0)
+    for i in range(44):  # out in the fields
+        grove(dice.uniform(-1300, 300), dice.uniform(-2600, -1000), 42.0, 11, 13.0)
     for i in range(200):  # on the downs
         hills = dice.choice((west, east))
         x, y, _ = dice.choice(hills.hills)
         plant(x + dice.gauss(0, 130), y + dice.gauss(0, 130), dice.uniform(7, 13))
-    for i in range(120):  # on the ridge
+    for i in range(24):  # on the ridge's near side
         x, y, _ = dice.choice(ahead.hills)
-        plant(x + dice.gauss(0, 260), y + dice.gauss(0, 260), dice.uniform(11, 18))
+        grove(x + dice.uniform(-100, 400), y + dice.uniform(100, 700), 70.0, 12, 17.0)
     parts += trees
 
     for i in range(38):
@@ -126,15 +126,15 @@ TURN_HEADER = """
 name = "turn"
 origin = { latitude = 47.25, longitude = 122.07, altitude = 200.0 }
 [sun]
-azimuth = 215.0
-elevation = 42.0
-ambient = 0.4
+azimuth = 150.0
+elevation = 38.0
+ambient = 0.35
 [sky]
 horizon = [0.55, 0.70, 0.86]
 zenith = [0.07, 0.19, 0.52]
 [haze]
-visibility = 140000.0
-colour = [0.50, 0.64, 0.80]
+visibility = 200000.0
+colour = [0.55, 0.70, 0.86]
 [ground]
 colour = [0.28, 0.38, 0.15]
 texture = "plain"
@@ -175,9 +175,9 @@ def turn():
         bearing = math.radians(-35.0 + 9.5 * i + dice.uniform(-3, 3))
         distance = dice.uniform(52000, 70000)
         far_chain.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(1500, 3200))
-    parts += first_chain.objects(dice, (0.33, 0.33, 0.20), "mountainside", 0.62)
-    parts += second_chain.objects(dice, (0.36, 0.33, 0.25), "mountainside", 0.62)
-    parts += foothills.objects(dice, (0.27, 0.36, 0.15), "mountainside", 0.62)
+    parts += first_chain.objects(dice, (0.38, 0.36, 0.17), "mountainside", 0.7)
+    parts += second_chain.objects(dice, (0.44, 0.36, 0.22), "mountainside", 0.7)
+    parts += foothills.objects(dice, (0.30, 0.40, 0.14), "mountainside", 0.7)
     parts += far_chain.objects(dice, (0.36, 0.36, 0.34), "mountainside", 0.55)
 
     for i in range(260):  # a wood is a low translucent dome from up here

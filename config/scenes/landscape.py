@@ -22,9 +22,9 @@ def rounded(values, digits=3):
     return [round(v, digits) for v in values]
 
 
-def texture(name, longest, terms, phases, vertical=0.0, drift=(0.0, 0.0)):
+def texture(name, longest, terms, phases, vertical=0.0, drift=(0.0, 0.0), step=2.07):
     """Frequencies about twice, amplitudes about 0.7 times the one before (2.3); `longest` is the first term's wavelength."""
-    frequencies = [2.0 * math.pi / longest * 2.07**i for i in range(terms)]
+    frequencies = [2.0 * math.pi / longest * step**i for i in range(terms)]
     return "\n".join([
         "[[texture]]",
         f'name = "{name}"',
@@ -151,11 +151,11 @@ def tree(random, name, x, y, ground, height):
 
 
 def cloud(random, name, x, y, base, size, flat_bottom=False):
-    semi_axes = (size * random.uniform(0.7, 1.3), size * random.uniform(0.4, 0.7), size * random.uniform(0.16, 0.26))
+    semi_axes = (size * random.uniform(0.7, 1.3), size * random.uniform(0.4, 0.7), size * random.uniform(0.24, 0.36))
     shape = ellipsoid((x, y, base), semi_axes, random.uniform(60.0, 120.0))
     planes = [[0.0, 0.0, 1.0, -round(base - 0.25 * semi_axes[2], 1)]] if flat_bottom else []
     white = random.uniform(0.93, 1.0)
-    return scene_object(name, shape, planes, paint((white, white, white), "cumulus", 0.35, (0.1, 0.62, 0.14)))
+    return scene_object(name, shape, planes, paint((white, white, white), "cumulus", 0.25, (0.1, 0.62, 0.14)))
 
 
 def scene(header, parts):

@@ -13,7 +13,8 @@ namespace quadrig {
 /// Stages of a frame, in order, as they appear in reports.
 enum class Stage { select, outline, sweep, shade, present };
 inline constexpr std::size_t kStageCount = 5;
-inline constexpr std::array<std::string_view, kStageCount> kStageNames{"select", "outline", "sweep", "shade", "present"};
+inline constexpr std::array<std::string_view, kStageCount> kStageNames{"select", "outline", "sweep", "shade",
+                                                                       "present"};
 using StageTimes = std::array<std::chrono::nanoseconds, kStageCount>;
 
 /// Draws one scene. Not copyable; one frame at a time. After the first frames it allocates nothing.
@@ -27,9 +28,11 @@ class ImageGenerator {
 
     /// Draws the picture. `image` must have the view's size. Wall-clock time is split over the stages; sweep and shade
     /// alternate on every row, so their share is the workers' mean.
-    StageTimes render(const View& view, const Environment& environment, const Quality& quality, const FrameImage& image);
+    StageTimes render(const View& view, const Environment& environment, const Quality& quality,
+                      const FrameImage& image);
 
-    /// What is seen at the pixel centres: ids and depth of the geometry, holes ignored (not for the frame loop: it allocates).
+    /// What is seen at the pixel centres: ids and depth of the geometry, holes ignored (not for the frame loop: it
+    /// allocates).
     GroundTruth ground_truth(const View& view);
 
     [[nodiscard]] const Scene& scene() const;

@@ -150,11 +150,15 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.curves.clear();
 
     bool near_plane = true;
+    out.near_u = 1.0 / kNearDepth, out.far_u = 0.0;
     if (solid.ellipsoid) {
         const glm::dvec3 forward(eye_from_scene[0].y, eye_from_scene[1].y, eye_from_scene[2].y);
-        const double distance = glm::dot(forward, solid.anchor.metres - eye.metres) - kNearDepth;
-        const double extent2 = -solid.c * value(solid.adjugate, forward) / solid.determinant;
-        near_plane = !(distance > 0.0 && distance * distance > extent2 * (1.0 + 1e-9));
+        const double distance = glm::dot(forward, solid.anchor.metres - eye.metres);
+        const double extent =
+            std::sqrt(std::max(0.0, -solid.c * value(solid.adjugate, forward) / solid.determinant)) * (1.0 + 1e-9);
+        near_plane = !(distance - extent > kNearDepth);
+        if (!near_plane) out.near_u = 1.0 / (distance - extent);
+        if (distance + extent > 0.0) out.far_u = 1.0 / (distance + extent);
     }
     const bool endless = solid.may_be_endless;
     look_at(solid, eye, eye_from_scene, near_plane, endless, out.solid);

@@ -54,6 +54,7 @@ struct Outline {
     bool limb_only = false;             ///< nothing but the limb: one band, one surface
     bool direct = false;                ///< every row is solved by itself: solids without end
     double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing
+    double near_u = 0, far_u = 0;       ///< bounds of 1/k over the solid
 };
 
 /// The rows on which outlines will be asked for: z = top - (row + 1/2) step, row in 0..count-1.

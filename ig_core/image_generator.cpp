@@ -1,0 +1,235 @@
+#include "ig_core/image_generator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "ig_core/shading/row_shader.h"
+#include "ig_core/spans/row_spans.h"
+#include "ig_core/workers.h"
+
+namespace quadrig {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Rows are handed out in strips, so that objects are looked up once for several rows.
+constexpr int kStripRows = 8;
+constexpr int kSelectBlock = 512, kOutlineBlock = 8;
+
+/// 1/k of the plane Z = altitude over the image: P(k d) = height + k n.d (Eq 7).
+PlaneDepth horizontal_plane(const View& view, double altitude) {
+    const double height = view.eye.metres.z - altitude;
+    const glm::dvec3 up = view.eye_from_scene[2];
+    if (height == 0.0) return {};  // edge-on: nowhere in front
+    return {-up.y / height, -up.x / height, -up.z / height};
+}
+
+/// Scratch of one worker; nothing in it survives a row but its memory.
+struct RowWorker {
+    RowSweep sweep;
+    RowShader shader;
+    std::chrono::nanoseconds sweep_time{0}, shade_time{0};
+};
+
+}  // namespace
+
+struct ImageGenerator::Impl {
+    Impl(Scene s, int threads) : scene(std::move(s)), workers(threads), row_workers(static_cast<std::size_t>(threads)) {
+        solids.reserve(scene.objects.size());
+        for (const Object& object : scene.objects) solids.push_back(make_solid(object));
+        paints = make_frame_paints(scene);
+        for (const FramePaint& paint : paints.decks) deck_opaque.push_back(!paint.translucent);
+        may_be_seen.resize(scene.objects.size());
+    }
+
+    void select(const View& view);
+    void make_outlines(const View& view, int sub_lines);
+    void assign_strips(const View& view);
+    /// Spans of one row, swept.
+    void sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& planes, RowSweep& sweep) const;
+
+    Scene scene;
+    Workers workers;
+    std::vector<RowWorker> row_workers;
+    std::vector<Solid> solids;
+    FramePaints paints;
+    std::vector<std::uint8_t> deck_opaque;
+    PlaneSurfaces planes;
+    std::vector<std::uint8_t> may_be_seen;
+    std::vector<std::uint32_t> selected;
+    std::vector<Outline> outlines;  // one for each selected object; only ever grows, to keep its memory
+    std::vector<std::uint32_t> strip_begin, strip_outlines;
+};
+
+void ImageGenerator::Impl::select(const View& view) {
+    const ImagePlane& image = view.image;
+    const auto count = static_cast<int>(solids.size());
+    const auto task = [&](int block, int) {
+        const int end = std::min(count, (block + 1) * kSelectBlock);
+        for (int i = block * kSelectBlock; i < end; ++i)
+            may_be_seen[static_cast<std::size_t>(i)] =
+                may_be_in_view(solids[static_cast<std::size_t>(i)], view.eye, view.eye_from_scene, image.left,
+                               image.x(image.width), image.z(image.height), image.top);
+    };
+    workers.run((count + kSelectBlock - 1) / kSelectBlock, std::ref(task));
+    selected.clear();
+    for (std::uint32_t i = 0; i < may_be_seen.size(); ++i)
+        if (may_be_seen[i] != 0) selected.push_back(i);
+}
+
+void ImageGenerator::Impl::make_outlines(const View& view, int sub_lines) {
+    const RowGrid rows{view.image.top, view.image.row_step / sub_lines, view.image.height * sub_lines};
+    if (outlines.size() < selected.size()) outlines.resize(selected.size());
+    const auto count = static_cast<int>(selected.size());
+    const auto task = [&](int block, int) {
+        const int end = std::min(count, (block + 1) * kOutlineBlock);
+        for (int i = block * kOutlineBlock; i < end; ++i) {
+            const std::uint32_t object = selected[static_cast<std::size_t>(i)];
+            make_outline(solids[object], object, view.eye, view.eye_from_scene, rows, outlines[static_cast<std::size_t>(i)]);
+        }
+    };
+    workers.run((count + kOutlineBlock - 1) / kOutlineBlock, std::ref(task));
+    assign_strips(view);
+}
+
+void ImageGenerator::Impl::assign_strips(const View& view) {
+    const ImagePlane& image = view.image;
+    const int strips = (image.height + kStripRows - 1) / kStripRows;
+    const auto strips_of = [&](const Outline& outline) {
+        const double first = (image.top - (outline.zeta_to + outline.solid.z0)) / image.row_step;
+        const double last = (image.top - (outline.zeta_from + outline.solid.z0)) / image.row_step;
+        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height)) return std::pair{1, 0};
+        const auto strip = [&](double row) {
+            return static_cast<int>(std::clamp(std::floor(row), 0.0, image.height - 1.0)) / kStripRows;
+        };
+        return std::pair{strip(first), strip(last)};
+    };
+    strip_begin.assign(static_cast<std::size_t>(strips) + 1, 0);
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+        const auto [from, to] = strips_of(outlines[i]);
+        for (int s = from; s <= to; ++s) ++strip_begin[static_cast<std::size_t>(s) + 1];
+    }
+    for (std::size_t s = 1; s < strip_begin.size(); ++s) strip_begin[s] += strip_begin[s - 1];
+    strip_outlines.resize(strip_begin.back());
+    for (std::size_t i = selected.size(); i-- > 0;) {
+        const auto [from, to] = strips_of(outlines[i]);
+        // Filled from the back, so that strip_begin ends up where each strip starts.
+        for (int s = from; s <= to; ++s) strip_outlines[--strip_begin[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
+    }
+    std::rotate(strip_begin.begin(), strip_begin.begin() + 1, strip_begin.end());
+    strip_begin.back() = static_cast<std::uint32_t>(strip_outlines.size());
+}
+
+void ImageGenerator::Impl::sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& seen_planes,
+                                     RowSweep& sweep) const {
+    sweep.spans.clear();
+    const auto strip = static_cast<std::size_t>(row.row / kStripRows);
+    for (std::uint32_t i = strip_begin[strip]; i < strip_begin[strip + 1]; ++i) {
+        const Outline& outline = outlines[strip_outlines[i]];
+        const bool opaque = everything_opaque || !paints.objects[outline.object].translucent;
+        add_object_spans(outline, strip_outlines[i], opaque, row, sweep.spans);
+    }
+    add_plane_spans(seen_planes, deck_opaque, row, sweep.spans);
+    sweep.sweep(row);
+}
+
+namespace {
+
+PixelRow pixel_row(const View& view, int r, int sub_lines, bool point_samples) {
+    PixelRow row;
+    row.row = r;
+    row.sub_lines = sub_lines;
+    row.point_samples = point_samples;
+    row.columns = view.image.width;
+    row.left = view.image.left;
+    row.column_step = view.image.column_step;
+    for (int i = 0; i < sub_lines; ++i) row.z[static_cast<std::size_t>(i)] = view.image.z(r + (i + 0.5) / sub_lines);
+    return row;
+}
+
+}  // namespace
+
+ImageGenerator::ImageGenerator(Scene scene, int threads) : impl_(std::make_unique<Impl>(std::move(scene), std::max(1, threads))) {}
+ImageGenerator::~ImageGenerator() = default;
+const Scene& ImageGenerator::scene() const { return impl_->scene; }
+std::string_view ImageGenerator::simd_target() { return simd_target_name(); }
+
+StageTimes ImageGenerator::render(const View& view, const Environment& environment, const Quality& quality,
+                                  const FrameImage& image) {
+    Impl& g = *impl_;
+    const int sub_lines = std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines);
+    const auto start = Clock::now();
+    g.select(view);
+    const auto selected = Clock::now();
+    g.make_outlines(view, sub_lines);
+    const auto outlined = Clock::now();
+
+    move_textures(g.scene, view.eye, environment.seconds, g.paints);
+    g.planes.ground.reset();
+    if (g.scene.ground) g.planes.ground = horizontal_plane(view, 0.0);
+    g.planes.decks.clear();
+    for (const CloudDeck& deck : g.scene.cloud_decks) g.planes.decks.push_back(horizontal_plane(view, deck.altitude));
+    const FrameShading frame{&view, &g.solids, &g.paints, make_frame_light(g.scene, environment)};
+    for (RowWorker& worker : g.row_workers) worker.sweep_time = worker.shade_time = {};
+
+    const auto task = [&](int strip, int worker) {
+        RowWorker& own = g.row_workers[static_cast<std::size_t>(worker)];
+        auto before = Clock::now();
+        for (int r = strip * kStripRows; r < std::min(image.height, (strip + 1) * kStripRows); ++r) {
+            const PixelRow row = pixel_row(view, r, sub_lines, false);
+            g.sweep_row(row, false, g.planes, own.sweep);
+            const auto swept = Clock::now();
+            own.shader.draw(frame, row, own.sweep, image.row(r));
+            const auto shaded = Clock::now();
+            own.sweep_time += swept - before;
+            own.shade_time += shaded - swept;
+            before = shaded;
+        }
+    };
+    g.workers.run((image.height + kStripRows - 1) / kStripRows, std::ref(task));
+
+    StageTimes times{};
+    times[static_cast<std::size_t>(Stage::select)] = selected - start;
+    times[static_cast<std::size_t>(Stage::outline)] = outlined - selected;
+    std::chrono::nanoseconds sweep{0}, shade{0};
+    for (const RowWorker& worker : g.row_workers) sweep += worker.sweep_time, shade += worker.shade_time;
+    times[static_cast<std::size_t>(Stage::sweep)] = sweep / g.workers.count();
+    times[static_cast<std::size_t>(Stage::shade)] = shade / g.workers.count();
+    return times;
+}
+
+GroundTruth ImageGenerator::ground_truth(const View& view) {
+    Impl& g = *impl_;
+    const ImagePlane& image = view.image;
+    g.select(view);
+    g.make_outlines(view, 1);
+    PlaneSurfaces planes;
+    if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
+    GroundTruth truth;
+    truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    const auto task = [&](int strip, int worker) {
+        RowSweep& sweep = g.row_workers[static_cast<std::size_t>(worker)].sweep;
+        for (int r = strip * kStripRows; r < std::min(image.height, (strip + 1) * kStripRows); ++r) {
+            const PixelRow row = pixel_row(view, r, 1, true);
+            g.sweep_row(row, true, planes, sweep);
+            for (const LayerRun& run : sweep.runs) {
+                const Surface& surface = sweep.spans[sweep.layers[run.first_layer]].surface;
+                if (surface.kind == Surface::Kind::sky) continue;
+                const DepthOnLine depth(surface, row, row.z[0]);
+                const bool ground = surface.kind == Surface::Kind::ground;
+                for (int c = run.from; c < run.to; ++c) {
+                    const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(c);
+                    truth.object_ids[at] = ground ? kGroundId : static_cast<std::int32_t>(surface.outline->object);
+                    truth.surface_ids[at] = surface.surface;
+                    truth.depth[at] = 1.0 / depth.at(c + 0.5).u;
+                }
+            }
+        }
+    };
+    g.workers.run((image.height + kStripRows - 1) / kStripRows, std::ref(task));
+    return truth;
+}
+
+}  // namespace quadrig

@@ -1,0 +1,106 @@
+#include "ig_core/shading/frame_paint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace quadrig {
+namespace {
+
+std::array<float, 3> to_float(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Terms by rising frequency: filtering drops them from the end.
+std::vector<TextureTerm> sorted_terms(const Texture& texture) {
+    std::vector<TextureTerm> terms = texture.terms;
+    std::stable_sort(terms.begin(), terms.end(),
+                     [](const TextureTerm& a, const TextureTerm& b) { return a.frequency < b.frequency; });
+    return terms;
+}
+
+FramePaint make_paint(const Paint& paint, const std::vector<FrameTexture>& textures) {
+    FramePaint out;
+    out.colour = to_float(paint.colour);
+    if (paint.texture) {
+        out.texture = &textures[*paint.texture];
+        out.texture_weight = static_cast<float>(paint.texture_weight);
+    }
+    if (paint.translucence && paint.texture) {
+        out.translucent = true;
+        out.threshold = static_cast<float>(paint.translucence->threshold);
+        out.limb_threshold = static_cast<float>(paint.translucence->limb_threshold);
+        out.softness = static_cast<float>(paint.translucence->softness);
+    }
+    return out;
+}
+
+/// Phase in turns, reduced to 0..1.
+float turns(double radians) {
+    const double t = radians / (2.0 * std::numbers::pi);
+    return static_cast<float>(t - std::floor(t));
+}
+
+}  // namespace
+
+FramePaints make_frame_paints(const Scene& scene) {
+    FramePaints paints;
+    paints.textures.resize(scene.textures.size());
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        FrameTexture& out = paints.textures[i];
+        const std::vector<TextureTerm>& terms = paints.terms.emplace_back(sorted_terms(scene.textures[i]));
+        double sum = 0.0;
+        for (const TextureTerm& term : terms) sum += term.coefficient;
+        out.count = static_cast<int>(terms.size());
+        out.vertical = static_cast<float>(scene.textures[i].vertical);
+        for (std::size_t k = 0; k < terms.size(); ++k) {
+            out.terms[k].weight = static_cast<float>(terms[k].coefficient / sum);
+            out.terms[k].turns_per_metre = static_cast<float>(terms[k].frequency / (2.0 * std::numbers::pi));
+        }
+    }
+    for (const Object& object : scene.objects) paints.objects.push_back(make_paint(object.paint, paints.textures));
+    for (const CloudDeck& deck : scene.cloud_decks) paints.decks.push_back(make_paint(deck.paint, paints.textures));
+    if (scene.ground) {
+        paints.ground = make_paint(scene.ground->paint, paints.textures);
+        paints.ground.translucent = false;
+    }
+    return paints;
+}
+
+void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, FramePaints& paints) {
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& texture = scene.textures[i];
+        for (std::size_t k = 0; k < texture.terms.size(); ++k) {
+            const double w = paints.terms[i][k].frequency, p = paints.terms[i][k].phase;
+            FrameTexture::Term& out = paints.textures[i].terms[k];
+            out.along_x = turns(w * (eye.metres.x + texture.drift.x * seconds));
+            out.along_y = turns(w * (eye.metres.y + texture.drift.y * seconds));
+            out.half_x = turns(0.5 * w * eye.metres.x + p);
+            out.half_y = turns(0.5 * w * eye.metres.y + p);
+            out.half_z = turns(0.5 * w * eye.metres.z + p);
+        }
+    }
+}
+
+glm::dvec3 direction_to_sun(const Sun& sun) {
+    const double a = sun.azimuth.radians(), e = sun.elevation.radians();
+    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
+}
+
+FrameLight make_frame_light(const Scene& scene, const Environment& environment) {
+    FrameLight light;
+    const Sun& sun = environment.sun ? *environment.sun : scene.sun;
+    light.to_sun = to_float(direction_to_sun(sun));
+    light.ambient = static_cast<float>(sun.ambient);
+    light.horizon = to_float(scene.sky.horizon);
+    light.zenith = to_float(scene.sky.zenith);
+    light.haze = scene.haze.has_value() || environment.visibility.has_value();
+    if (light.haze) {
+        const double visibility = environment.visibility ? *environment.visibility : scene.haze->visibility;
+        light.extinction = static_cast<float>(kContrastAtVisibility / (visibility * std::numbers::ln2));
+        light.haze_colour = to_float(scene.haze ? scene.haze->colour : scene.sky.horizon);
+    }
+    return light;
+}
+
+}  // namespace quadrig

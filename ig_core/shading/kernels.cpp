@@ -1,0 +1,175 @@
+#include "ig_core/shading/shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ig_core/shading/kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "ig_core/shading/kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace quadrig {
+namespace HWY_NAMESPACE {
+
+void Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) { shade_columns(in, buffer, offset); }
+
+void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
+                   std::span<const float> z, std::span<float> t) {
+    const hn::ScalableTag<float> d;
+    const std::size_t n = hn::Lanes(d);
+    for (std::size_t i = 0; i < t.size(); i += n) {
+        // Short tails go through a padded copy: this entry is for tests, not for frames.
+        alignas(64) float px[64] = {}, py[64] = {}, pz[64] = {}, pt[64] = {};
+        const std::size_t left = std::min(n, t.size() - i);
+        std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(i), left, px);
+        std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(i), left, py);
+        std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(i), left, pz);
+        const Vec3<decltype(hn::Zero(d))> p{hn::Load(d, px), hn::Load(d, py), hn::Load(d, pz)};
+        const auto none = hn::Zero(d);
+        hn::Store(texturing_function(d, texture, p, none, none).value, d, pt);
+        std::copy_n(pt, left, t.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+void CompositeWhole(const ShadeBuffer& buffer, std::span<const std::uint32_t> samples, int count, ShadeBuffer& row,
+                    std::size_t column) {
+    const hn::ScalableTag<float> d;
+    const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
+    const auto one = hn::Set(d, 1.0F);
+    for (std::size_t i = 0; i < total; i += n) {
+        auto r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), through = one;
+        for (const std::uint32_t sample : samples) {
+            const std::size_t at = sample + i;
+            const auto opacity = hn::LoadU(d, buffer.opacity.data() + at);
+            const auto weight = hn::Mul(through, opacity);
+            r = hn::MulAdd(weight, hn::LoadU(d, buffer.red.data() + at), r);
+            g = hn::MulAdd(weight, hn::LoadU(d, buffer.green.data() + at), g);
+            b = hn::MulAdd(weight, hn::LoadU(d, buffer.blue.data() + at), b);
+            through = hn::Mul(through, hn::Sub(one, opacity));
+        }
+        // Runs are composited from left to right, so lanes past the end are overwritten by the run they belong to.
+        hn::StoreU(r, d, row.red.data() + column + i);
+        hn::StoreU(g, d, row.green.data() + column + i);
+        hn::StoreU(b, d, row.blue.data() + column + i);
+    }
+}
+
+/// Share of each cell of one pixel that a span covers, sub-scan line by sub-scan line.
+HWY_INLINE void cell_cover(const RowSpan& span, int column, int sub_lines, float* HWY_RESTRICT cover) {
+    for (int line = 0; line < sub_lines; ++line) {
+        const auto l = static_cast<std::size_t>(line);
+        const float from = static_cast<float>(span.from[l] - column) * kCellsPerLine;
+        const float to = static_cast<float>(span.to[l] - column) * kCellsPerLine;
+        for (int cell = 0; cell < kCellsPerLine; ++cell) {
+            const float at = static_cast<float>(cell);
+            const float upper = std::clamp(to - at, 0.0F, 1.0F), lower = std::clamp(from - at, 0.0F, 1.0F);
+            cover[line * kCellsPerLine + cell] = std::max(0.0F, upper - lower);
+        }
+    }
+}
+
+void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
+                      ShadeBuffer& row) {
+    const hn::CappedTag<float, 4> d;  // a sub-scan line of cells
+    constexpr std::size_t kLines = kMaxSubScanLines;
+    const auto lines = static_cast<std::size_t>(sub_lines);
+    using V = decltype(hn::Zero(d));
+    alignas(16) float through[kMaxCells], at_group[kMaxCells], cover[kMaxCells];
+    static_assert(kLines * 4 == kMaxCells);
+    std::fill_n(through, kMaxCells, 1.0F);
+    std::uint32_t group = ~0U;
+    float red = 0, green = 0, blue = 0;
+    for (const PartialLayer& layer : layers) {
+        // Layers of one object lie side by side: what one of them leaves uncovered the next may fill, so both start from the
+        // light that reached the group. Otherwise the background would show along their common edge.
+        if (layer.group != group) std::copy_n(through, kMaxCells, at_group);
+        group = layer.group;
+        cell_cover(*layer.span, column, sub_lines, cover);
+        const float opacity = buffer.opacity[layer.sample];
+        const V alpha = hn::Set(d, opacity);
+        V sum = hn::Zero(d);
+        V left = hn::Zero(d);
+        for (std::size_t line = 0; line < lines; ++line) {
+            const V weight = hn::Mul(hn::Mul(hn::Load(d, cover + line * 4), alpha), hn::Load(d, at_group + line * 4));
+            const V rest = hn::Max(hn::Zero(d), hn::Sub(hn::Load(d, through + line * 4), weight));
+            hn::Store(rest, d, through + line * 4);
+            sum = hn::Add(sum, weight);
+            left = hn::Max(left, rest);
+        }
+        const float weight = hn::GetLane(hn::SumOfLanes(d, sum)) / static_cast<float>(kCellsPerLine * sub_lines);
+        red += weight * buffer.red[layer.sample];
+        green += weight * buffer.green[layer.sample];
+        blue += weight * buffer.blue[layer.sample];
+        if (hn::AllTrue(d, hn::Lt(left, hn::Set(d, 1.0F / 4096.0F)))) break;
+    }
+    const auto at = static_cast<std::size_t>(column);
+    row.red[at] = red, row.green[at] = green, row.blue[at] = blue;
+}
+
+void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgba) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
+    alignas(64) std::int32_t pixels[64];
+    for (std::size_t i = 0; i < total; i += n) {
+        const auto r = srgb8(d, hn::LoadU(d, row.red.data() + i));
+        const auto g = srgb8(d, hn::LoadU(d, row.green.data() + i));
+        const auto b = srgb8(d, hn::LoadU(d, row.blue.data() + i));
+        const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
+        const auto packed = hn::Or(rg, hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xFF000000U))));
+        if (i + n <= total) {
+            hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
+        } else {
+            hn::Store(packed, di, pixels);
+            std::copy_n(reinterpret_cast<const std::uint8_t*>(pixels), 4 * (total - i), rgba + 4 * i);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace quadrig
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace quadrig {
+
+HWY_EXPORT(Shade);
+HWY_EXPORT(TextureValues);
+HWY_EXPORT(CompositeWhole);
+HWY_EXPORT(CompositePartial);
+HWY_EXPORT(PackSrgb8);
+
+void ShadeBuffer::resize(std::size_t count) {
+    if (red.size() >= count) return;
+    for (auto* plane : {&red, &green, &blue, &opacity}) plane->resize(count);
+}
+
+void shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset) {
+    HWY_DYNAMIC_DISPATCH(Shade)(input, buffer, offset);
+}
+void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
+                    std::span<const float> z, std::span<float> t) {
+    HWY_DYNAMIC_DISPATCH(TextureValues)(texture, x, y, z, t);
+}
+void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> samples, int count, ShadeBuffer& row,
+                     std::size_t column) {
+    HWY_DYNAMIC_DISPATCH(CompositeWhole)(buffer, samples, count, row, column);
+}
+void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
+                       ShadeBuffer& row) {
+    HWY_DYNAMIC_DISPATCH(CompositePartial)(buffer, layers, column, sub_lines, row);
+}
+void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba) {
+    HWY_DYNAMIC_DISPATCH(PackSrgb8)(row, count, rgba);
+}
+std::string_view simd_target_name() {
+    // The dispatcher takes the lowest set bit: better targets have smaller values.
+    const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
+    return hwy::TargetName(targets & -targets);
+}
+
+}  // namespace quadrig
+#endif

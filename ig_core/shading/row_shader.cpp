@@ -1,0 +1,155 @@
+#include "ig_core/shading/row_shader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrig {
+namespace {
+
+/// A surface hidden for fewer columns than this is shaded on through: a new vector costs more.
+constexpr int kLongestIdleRun = 12;
+
+std::array<float, 3> to_float(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Where a span is sampled: the mean of its sub-scan lines, and the columns between its mean ends.
+struct SampleRange {
+    double z, from, to;
+};
+SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
+    SampleRange sum{0, 0, 0};
+    int lines = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
+        if (!(span.from[i] < span.to[i])) continue;
+        sum.z += row.z[i], sum.from += span.from[i], sum.to += span.to[i];
+        ++lines;
+    }
+    const double share = 1.0 / std::max(1, lines);
+    return {sum.z * share, sum.from * share, sum.to * share};
+}
+
+void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step, ShadeInput& in) {
+    const EyeSolid& e = span.surface.outline->solid;
+    const Solid& solid = (*frame.solids)[span.surface.outline->object];
+    const double zeta = z - e.z0;
+    in.kind = ShadeInput::Kind::quadric;
+    in.xi = static_cast<float>(x - e.x0);
+    in.xi_step = static_cast<float>(column_step);
+    in.c = static_cast<float>(e.s);
+    in.b = {static_cast<float>(e.v.y + e.v.z * zeta), static_cast<float>(e.v.x)};
+    const auto on_row = [&](const Sym3& form) {
+        return std::array<float, 3>{static_cast<float>(form.yy + zeta * (2.0 * form.yz + zeta * form.zz)),
+                                    static_cast<float>(2.0 * (form.xy + form.xz * zeta)), static_cast<float>(form.xx)};
+    };
+    in.a = on_row(e.m);
+    in.limb = on_row(e.limb);
+    in.inverse_centre_value = solid.centre_value > 0.0 ? static_cast<float>(1.0 / solid.centre_value) : 0.0F;
+    const Sym3& m = solid.m;
+    in.m = {static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz),
+            static_cast<float>(m.xy), static_cast<float>(m.xz), static_cast<float>(m.yz)};
+    in.eye_from_anchor = to_float(frame.view->eye.metres - solid.anchor.metres);
+    in.gradient = to_float(solid.w);
+}
+
+}  // namespace
+
+ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to) {
+    const SampleRange range = sample_range(row, span);
+    const Surface& surface = span.surface;
+    ShadeInput in;
+    in.count = to - from;
+    in.light = &frame.light;
+    const double first = from + 0.5, x = row.x(first);
+    in.least_column = static_cast<float>(std::min(range.from, range.to) - first);
+    in.most_column = static_cast<float>(range.to - first);
+    const glm::dmat3 scene_from_eye = glm::transpose(frame.view->eye_from_scene);
+    in.ray = to_float(scene_from_eye * glm::dvec3(x, 1.0, range.z));
+    in.ray_step = to_float(scene_from_eye[0] * row.column_step);
+    in.along_row = to_float(scene_from_eye[2] * frame.view->image.row_step);
+    switch (surface.kind) {
+        case Surface::Kind::sky: in.kind = ShadeInput::Kind::sky; return in;
+        case Surface::Kind::quadric:
+            set_quadric(frame, span, x, range.z, row.column_step, in);
+            in.paint = &frame.paints->objects[surface.outline->object];
+            return in;
+        case Surface::Kind::face: {
+            const Solid& solid = (*frame.solids)[surface.outline->object];
+            const auto plane = std::find_if(solid.planes.begin(), solid.planes.end(),
+                                            [&](const SolidPlane& p) { return p.surface == surface.surface; });
+            in.normal = to_float(-plane->normal);
+            in.paint = &frame.paints->objects[surface.outline->object];
+            break;
+        }
+        case Surface::Kind::ground:
+            in.normal = {0, 0, 1};
+            in.paint = &frame.paints->ground;
+            break;
+        case Surface::Kind::deck:
+            in.normal = {0, 0, 1};
+            in.paint = &frame.paints->decks[surface.index];
+            break;
+    }
+    in.kind = ShadeInput::Kind::plane;
+    const DepthOnLine depth(surface, row, range.z);
+    in.plane_u = static_cast<float>(depth.at(first).u);
+    in.plane_u_step = static_cast<float>(depth.at(first).slope);
+    return in;
+}
+
+void RowShader::plan(const RowSweep& sweep) {
+    jobs_.clear();
+    job_of_span_.assign(sweep.spans.size(), -1);
+    job_of_layer_.resize(sweep.layers.size());
+    for (const LayerRun& run : sweep.runs) {
+        for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+            const std::uint32_t span = sweep.layers[i];
+            std::int32_t& job = job_of_span_[span];
+            if (job < 0 || jobs_[static_cast<std::size_t>(job)].to + kLongestIdleRun < run.from) {
+                job = static_cast<std::int32_t>(jobs_.size());
+                jobs_.push_back({span, run.from, run.to, 0});
+            }
+            jobs_[static_cast<std::size_t>(job)].to = run.to;
+            job_of_layer_[i] = static_cast<std::uint32_t>(job);
+        }
+    }
+    std::uint32_t used = 0;
+    for (ShadeJob& job : jobs_) {
+        job.buffer = used;
+        used += static_cast<std::uint32_t>(job.to - job.from);
+    }
+    buffer_.resize(used + kShadePadding);
+}
+
+void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba) {
+    plan(sweep);
+    // In buffer order: what a job writes past its end is overwritten by the next.
+    for (const ShadeJob& job : jobs_)
+        shade(shade_input(frame, row, sweep.spans[job.span], job.from, job.to), buffer_, job.buffer);
+
+    row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
+    for (const LayerRun& run : sweep.runs) {
+        const auto sample = [&](std::uint32_t layer, int column) {
+            const ShadeJob& job = jobs_[job_of_layer_[layer]];
+            return job.buffer + static_cast<std::uint32_t>(column - job.from);
+        };
+        if (!run.partial) {
+            samples_.clear();
+            for (std::uint32_t i = 0; i < run.layer_count; ++i) samples_.push_back(sample(run.first_layer + i, run.from));
+            composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
+            continue;
+        }
+        for (int column = run.from; column < run.to; ++column) {
+            partial_.clear();
+            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+                const RowSpan& span = sweep.spans[sweep.layers[i]];
+                const std::uint32_t group = span.surface.outline != nullptr ? span.surface.priority : ~0U - 1U - i;
+                partial_.push_back({sample(i, column), group, &span});
+            }
+            composite_partial(buffer_, partial_, column, row.sub_lines, row_);
+        }
+    }
+    pack_srgb8(row_, row.columns, rgba);
+}
+
+}  // namespace quadrig

@@ -1,0 +1,40 @@
+/// From visible runs to pixels: each surface is shaded once per pixel it shows in, then layers are laid over one another.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ig_core/shading/frame_paint.h"
+#include "ig_core/shading/shade.h"
+#include "ig_core/spans/sweep.h"
+
+namespace quadrig {
+
+/// What is common to all rows of a frame. Spans lead into it by Surface::outline and Surface::index.
+struct FrameShading {
+    const View* view = nullptr;
+    const std::vector<Solid>* solids = nullptr;  ///< by object
+    const FramePaints* paints = nullptr;
+    FrameLight light;
+};
+
+/// The numbers of one job on its row.
+ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to);
+
+/// Shades and composites one row at a time; keeps its memory from row to row.
+class RowShader {
+  public:
+    void draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba);
+
+  private:
+    void plan(const RowSweep& sweep);
+
+    std::vector<ShadeJob> jobs_;
+    std::vector<std::int32_t> job_of_span_;
+    std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
+    std::vector<std::uint32_t> samples_;
+    std::vector<PartialLayer> partial_;
+    ShadeBuffer buffer_, row_;
+};
+
+}  // namespace quadrig

@@ -1,0 +1,41 @@
+/// The shading kernels, dispatched at run time to the best instruction set the machine has.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "ig_core/shading/shade_job.h"
+#include "ig_core/spans/sweep.h"
+
+namespace quadrig {
+
+/// Shades one job (image model: Eq 15, light, limb function, translucence, haze) into buffer[offset...], planar linear light.
+/// Writes up to kShadePadding samples past the end.
+void shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset);
+
+/// Evaluates the texturing function without filtering at scene points given relative to the eye, as shading does: for tests.
+void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
+                    std::span<const float> z, std::span<float> t);
+
+/// Lays a whole run's layers over one another, front to back: samples[i] is where layer i's first column stands in `buffer`.
+void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> samples, int count, ShadeBuffer& row,
+                     std::size_t column);
+
+/// A layer of a pixel that it covers in part: its sample, and the share of each cell that it covers. A cell is a quarter of a
+/// sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object).
+inline constexpr int kCellsPerLine = 4;
+inline constexpr int kMaxCells = kCellsPerLine * kMaxSubScanLines;
+struct PartialLayer {
+    std::uint32_t sample = 0;
+    std::uint32_t group = 0;
+    const RowSpan* span = nullptr;
+};
+void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
+                       ShadeBuffer& row);
+
+/// Linear light to 8-bit sRGB, R G B 255, `count` pixels of a row. Error against exact rounding below 0.02 of a step.
+void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba);
+
+std::string_view simd_target_name();
+
+}  // namespace quadrig

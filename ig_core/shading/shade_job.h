@@ -1,0 +1,82 @@
+/// What shading needs to know of a surface on one pixel row: plain floats, ready for any vector width.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ig_core/spans/row_span.h"
+#include "ig_core/view.h"
+
+namespace quadrig {
+
+/// A texture as one frame sees it. Phases are in turns and measured from the eye: the scene-sized part of w X + p is reduced in
+/// double, so that the float part stays small wherever the texture is not yet filtered away.
+struct FrameTexture {
+    struct Term {
+        float weight;          ///< C_i / sum C
+        float turns_per_metre; ///< w_i / 2 pi
+        float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
+    };
+    std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
+    int count = 0;
+    float vertical = 0;  ///< u of Eq 15
+};
+
+/// Light, haze and sky of one frame.
+struct FrameLight {
+    std::array<float, 3> to_sun{};  ///< unit vector, scene axes
+    float ambient = 1;
+    bool haze = false;
+    float extinction = 0;  ///< 1/m, in powers of two: 2.996 / V / ln 2
+    std::array<float, 3> haze_colour{}, horizon{}, zenith{};
+};
+
+/// How one surface looks.
+struct FramePaint {
+    std::array<float, 3> colour{1, 1, 1};
+    const FrameTexture* texture = nullptr;
+    float texture_weight = 0;
+    bool translucent = false;
+    float threshold = 0, limb_threshold = 0, softness = 1;
+};
+
+/// Columns [from, to) of one surface, to be shaded once per pixel into `buffer` (offset of column `from`).
+struct ShadeJob {
+    std::uint32_t span = 0;
+    int from = 0, to = 0;
+    std::uint32_t buffer = 0;
+};
+
+/// A job's numbers. Columns are counted from the job's first one, at pixel centres.
+struct ShadeInput {
+    enum class Kind : std::uint8_t { sky, plane, quadric };
+    Kind kind = Kind::sky;
+    int count = 0;
+    float least_column = 0, most_column = 0;  ///< sample points stay within the surface
+    // Ray direction in scene axes and its parts: d = ray + column * ray_step; along_row the step to the next row.
+    std::array<float, 3> ray{}, ray_step{}, along_row{};
+    std::array<float, 3> normal{};  ///< planes: unit, outward
+    float plane_u = 0, plane_u_step = 0;  ///< planes: 1/k
+    // Quadrics: xi = xi + column * xi_step; A, B, L as polynomials in xi; C.
+    float xi = 0, xi_step = 0, c = 0;
+    std::array<float, 2> b{};
+    std::array<float, 3> a{}, limb{};
+    float inverse_centre_value = 0;                      ///< 1 / |Q(centre)|, 0 where g is 1
+    std::array<float, 6> m{};                            ///< xx yy zz xy xz yz, scene axes
+    std::array<float, 3> eye_from_anchor{}, gradient{};  ///< eye - anchor; w
+    float largest_depth = 1e7F;
+    const FramePaint* paint = nullptr;
+    const FrameLight* light = nullptr;
+};
+
+/// Linear light and opacity of shaded samples, one array each.
+struct ShadeBuffer {
+    std::vector<float> red, green, blue, opacity;
+    void resize(std::size_t count);
+};
+
+/// Room that kernels may write past a job's end.
+inline constexpr std::size_t kShadePadding = 64;
+
+}  // namespace quadrig

@@ -1,0 +1,145 @@
+#include "ig_core/spans/priority.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace quadrig {
+namespace {
+
+/// Crossings are found to this many columns, and none is looked for so close to a span's end.
+constexpr double kCrossingWidth = 1.0 / 16.0;
+/// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
+constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
+constexpr int kMaxSplits = 8;
+
+/// Finds where one depth passes another along a scan line.
+class Crossings {
+  public:
+    Crossings(const RowSpan& a, const RowSpan& b, const PixelRow& row, double z)
+        : a_(a.surface, row, z), b_(b.surface, row, z), points_(row.point_samples),
+          a_wins_ties_(a.surface.priority < b.surface.priority) {}
+
+    void search(double from, double to) {
+        const End left = end(from), right = end(to);
+        starts_in_front = left.in_front;
+        between(left, right);
+    }
+
+    bool starts_in_front = false;
+    std::array<double, kMaxCrossings> at{};
+    std::size_t count = 0;
+
+  private:
+    struct End {
+        double column;
+        DepthOnLine::Sample a, b;
+        bool in_front;
+    };
+
+    [[nodiscard]] End end(double column) const {
+        const DepthOnLine::Sample a = a_.at(column), b = b_.at(column);
+        return {column, a, b, a.u > b.u || (a.u == b.u && a_wins_ties_)};
+    }
+
+    /// Tangents of the farther surface at both ends, chord of the nearer one: their closest approach decides.
+    [[nodiscard]] static bool proven(const End& l, const End& r) {
+        const auto& near_l = l.in_front ? l.a : l.b;
+        const auto& near_r = l.in_front ? r.a : r.b;
+        const auto& far_l = l.in_front ? l.b : l.a;
+        const auto& far_r = l.in_front ? r.b : r.a;
+        const double width = r.column - l.column, chord_slope = (near_r.u - near_l.u) / width;
+        const double gap_l = near_l.u - far_l.u, gap_r = near_r.u - far_r.u;
+        const bool tangent_l = std::isfinite(far_l.slope), tangent_r = std::isfinite(far_r.slope);
+        // Gap above either tangent, at a distance t from the left end; the larger of the two is a lower bound.
+        const double slope_l = chord_slope - far_l.slope, slope_r = chord_slope - far_r.slope;
+        const double at_left_r = gap_r - slope_r * width;  // above the right tangent, at the left end
+        if (tangent_l && gap_l + slope_l * width > 0.0) return true;
+        if (tangent_r && at_left_r > 0.0) return true;
+        if (!tangent_l || !tangent_r || slope_l == slope_r) return false;
+        const double t = (at_left_r - gap_l) / (slope_l - slope_r);
+        return t >= 0.0 && t <= width && gap_l + slope_l * t > 0.0;
+    }
+
+    void between(const End& left, const End& right) {
+        if (left.in_front == right.in_front && (left.column >= right.column || proven(left, right))) return;
+        const double width = right.column - left.column;
+        if (width <= (points_ ? 1.0 : kCrossingWidth)) {
+            if (left.in_front == right.in_front || count == kMaxCrossings) return;
+            double share = 0.5;
+            if (!points_) {
+                const double gap_l = std::abs(left.a.u - left.b.u), gap_r = std::abs(right.a.u - right.b.u);
+                if (gap_l + gap_r > 0.0) share = gap_l / (gap_l + gap_r);
+            }
+            at[count++] = left.column + share * width;
+            return;
+        }
+        const double half = points_ ? std::floor(0.5 * width) : 0.5 * width;
+        const End middle = end(left.column + half);
+        between(left, middle);
+        between(middle, right);
+    }
+
+    DepthOnLine a_, b_;
+    bool points_, a_wins_ties_;
+};
+
+void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, double to) {
+    if (piece.splits == 0) {
+        piece = whole;
+        piece.from.fill(0.0);
+        piece.to.fill(0.0);
+        piece.splits = whole.splits + 1;
+    }
+    piece.from[line] = from;
+    piece.to[line] = to;
+}
+
+}  // namespace
+
+Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, CrossingPieces& pieces) {
+    const Surface &sa = a.surface, &sb = b.surface;
+    if (sa.far_u >= sb.near_u) return Priority::front;
+    if (sb.far_u >= sa.near_u) return Priority::behind;
+    // Surfaces of one object lie side by side.
+    if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
+
+    for (RowSpan& piece : pieces) piece.splits = 0;
+    bool front = false, behind = false;
+    std::optional<bool> first_in_front;
+    const auto lines = static_cast<std::size_t>(row.sub_lines);
+    std::array<bool, kMaxSubScanLines> apart{};
+    for (std::size_t line = 0; line < lines; ++line) {
+        double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
+        if (row.point_samples) {
+            from = std::ceil(from - 0.5) + 0.5, to = std::ceil(to - 0.5) - 0.5;
+        } else {
+            const double inset = std::min(2.0 * kCrossingWidth, 0.25 * (to - from));
+            from += inset, to -= inset;
+        }
+        apart[line] = !(row.point_samples ? from <= to : from < to);
+        if (apart[line]) continue;
+        Crossings crossings(a, b, row, row.z[line]);
+        crossings.search(from, to);
+        if (a.splits >= kMaxSplits) crossings.count = 0;
+        bool in_front = crossings.starts_in_front;
+        if (!first_in_front) first_in_front = in_front;
+        std::size_t piece = in_front ? 0 : 1;
+        double start = a.from[line];
+        for (std::size_t i = 0; i <= crossings.count; ++i) {
+            (in_front ? front : behind) = true;
+            const double stop = i < crossings.count ? crossings.at[i] : a.to[line];
+            put(pieces[std::min(piece, kMaxPieces - 1)], a, line, start, stop);
+            start = stop;
+            in_front = !in_front;
+            ++piece;
+        }
+    }
+    if (!behind) return Priority::front;
+    if (!front || a.splits >= kMaxSplits) return Priority::behind;
+    for (std::size_t line = 0; line < lines; ++line)
+        if (apart[line] && a.from[line] < a.to[line]) put(pieces[*first_in_front ? 0 : 1], a, line, a.from[line], a.to[line]);
+    return Priority::crossing;
+}
+
+}  // namespace quadrig

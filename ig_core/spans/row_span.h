@@ -1,0 +1,75 @@
+/// The span: part of a pixel row on which one surface may be seen. The narrow waist of the image generator: everything that draws
+/// makes spans, and everything after the sweep sees nothing else.
+///
+/// A pixel row is sampled on a few sub-scan lines. A span knows its exact ends on each of them, in columns (column c of the image
+/// covers c to c+1); it covers a pixel by as much as its sub-scan lines do.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ig_core/outline/outline.h"
+
+namespace quadrig {
+
+inline constexpr int kMaxSubScanLines = 8;
+
+/// Inverse depth 1/k of a plane over the image, at + x along_x + z along_z: positive in front of the eye.
+struct PlaneDepth {
+    double at = 0, along_x = 0, along_z = 0;
+};
+
+/// What a span shows.
+struct Surface {
+    enum class Kind : std::uint8_t { quadric, face, ground, deck, sky };
+    Kind kind = Kind::sky;
+    bool opaque = true;
+    int surface = 0;                   ///< surface id in the object
+    std::uint32_t index = 0;           ///< of the outline in the frame's list, or of the cloud deck
+    std::uint32_t priority = 0;        ///< wins a tie in depth if smaller: file order, then ground, decks, sky
+    const Outline* outline = nullptr;  ///< for quadrics and faces
+    PlaneDepth plane;                  ///< for ground and decks
+    double near_u = 1.0 / kNearDepth;  ///< bounds of 1/k over all of the surface
+    double far_u = 0.0;
+};
+
+struct RowSpan {
+    Surface surface;
+    std::array<double, kMaxSubScanLines> from, to;  ///< columns; from >= to where the sub-scan line misses it
+    int outer_from = 0, outer_to = 0;               ///< columns touched
+    int inner_from = 0, inner_to = 0;               ///< columns covered whole; empty if from >= to
+    int splits = 0;                                 ///< how often the sweep has cut it where surfaces cross
+};
+
+/// One pixel row and its sub-scan lines.
+struct PixelRow {
+    int row = 0;
+    int sub_lines = 1;
+    bool point_samples = false;  ///< a column counts as covered if its centre is: for ids and depth
+    int columns = 0;
+    double left = 0, column_step = 1;             ///< x = left + column * column_step
+    std::array<double, kMaxSubScanLines> z{};     ///< image-plane z of each sub-scan line
+    [[nodiscard]] double x(double column) const { return left + column * column_step; }
+    [[nodiscard]] double column(double at_x) const { return (at_x - left) / column_step; }
+};
+
+/// 1/k of a surface along one scan line as a function of the column. On every convex object it is concave, which is what the
+/// ordering of spans rests on: a chord lies below it, a tangent above.
+class DepthOnLine {
+  public:
+    DepthOnLine(const Surface& surface, const PixelRow& row, double z);
+    struct Sample {
+        double u;
+        double slope;  ///< du/dcolumn; not finite on the limb
+    };
+    [[nodiscard]] Sample at(double column) const;
+
+  private:
+    bool plane_;
+    double u0_ = 0, u1_ = 0;           // plane: u0 + u1 column
+    double xi0_ = 0, step_ = 1;        // quadric: xi = xi0 + step column
+    double b0_ = 0, b1_ = 0, s_ = 1;   // B = b0 + b1 xi, C = s
+    double a_[3] = {}, d_[3] = {};     // A and the limb form as polynomials in xi
+};
+
+}  // namespace quadrig

@@ -1,0 +1,134 @@
+#include "ig_core/spans/row_spans.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrig {
+namespace {
+
+constexpr std::uint32_t kGroundPriority = 0xFFFF0000u, kDeckPriority = 0xFFFF0001u, kSkyPriority = 0xFFFFFFFFu;
+
+void clear_ends(RowSpan& span) {
+    span.from.fill(0.0);
+    span.to.fill(0.0);
+}
+
+void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>& spans) {
+    RowSpan& span = spans.emplace_back();
+    span.surface = surface;
+    clear_ends(span);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
+        // 1/k > 0: a half-line of the row, from the plane's horizon on.
+        const double at = surface.plane.at + surface.plane.along_z * row.z[i];
+        const double slope = surface.plane.along_x;
+        const double horizon = row.column(-at / slope);
+        double from = 0.0, to = row.columns;
+        if (slope > 0.0) from = std::max(from, horizon);
+        else if (slope < 0.0) to = std::min(to, horizon);
+        else if (!(at > 0.0)) to = from;
+        span.from[i] = from, span.to[i] = std::max(from, to);
+    }
+    if (!fit_columns(row, span)) spans.pop_back();
+}
+
+}  // namespace
+
+bool fit_columns(const PixelRow& row, RowSpan& span) {
+    const double width = row.columns;
+    double least_from = width, most_from = 0.0, least_to = width, most_to = 0.0;
+    bool everywhere = true, anywhere = false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
+        // Ends may be infinite or NaN-free but far outside: clipping makes them columns of the image.
+        span.from[i] = std::clamp(span.from[i], 0.0, width);
+        span.to[i] = std::clamp(span.to[i], 0.0, width);
+        if (!(span.from[i] < span.to[i])) {
+            everywhere = false;
+            continue;
+        }
+        anywhere = true;
+        least_from = std::min(least_from, span.from[i]), most_from = std::max(most_from, span.from[i]);
+        least_to = std::min(least_to, span.to[i]), most_to = std::max(most_to, span.to[i]);
+    }
+    if (!anywhere) return false;
+    if (row.point_samples) {
+        span.outer_from = span.inner_from = static_cast<int>(std::ceil(least_from - 0.5));
+        span.outer_to = span.inner_to = static_cast<int>(std::ceil(most_to - 0.5));
+        return span.outer_from < span.outer_to;
+    }
+    span.outer_from = static_cast<int>(std::floor(least_from));
+    span.outer_to = static_cast<int>(std::ceil(most_to));
+    span.inner_from = everywhere ? static_cast<int>(std::ceil(most_from)) : span.outer_to;
+    span.inner_to = everywhere ? static_cast<int>(std::floor(least_to)) : span.outer_to;
+    if (span.inner_from >= span.inner_to) span.inner_from = span.inner_to = span.outer_to;
+    return span.outer_from < span.outer_to;
+}
+
+void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, std::vector<RowSpan>& spans) {
+    const std::size_t first = spans.size();
+    std::array<Cut, kMaxCuts> cuts;
+    for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line) {
+        const int count = cuts_on_row(outline, row.z[line], cuts.data());
+        std::size_t next = first;  // cuts and spans both run from left to right
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            const double from = row.column(cuts[i].from), to = row.column(cuts[i].to);
+            if (!(to > 0.0 && from < row.columns)) continue;
+            std::size_t at = next;
+            while (at < spans.size() &&
+                   !(spans[at].surface.surface == cuts[i].surface && spans[at].from[line] == spans[at].to[line]))
+                ++at;
+            if (at == spans.size()) {
+                RowSpan& span = spans.emplace_back();
+                span.surface = {cuts[i].surface == 0 ? Surface::Kind::quadric : Surface::Kind::face,
+                                opaque,
+                                cuts[i].surface,
+                                index,
+                                outline.object,
+                                &outline,
+                                {},
+                                outline.near_u,
+                                outline.far_u};
+                clear_ends(span);
+            } else {
+                next = at + 1;
+            }
+            spans[at].from[line] = from;
+            spans[at].to[line] = to;
+        }
+    }
+    std::size_t kept = first;
+    for (std::size_t i = first; i < spans.size(); ++i)
+        if (fit_columns(row, spans[i])) {
+            if (kept != i) spans[kept] = spans[i];
+            ++kept;
+        }
+    spans.resize(kept);
+}
+
+void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,
+                     std::vector<RowSpan>& spans) {
+    Surface surface;
+    surface.near_u = std::numeric_limits<double>::infinity();
+    if (planes.ground) {
+        surface.kind = Surface::Kind::ground;
+        surface.priority = kGroundPriority;
+        surface.plane = *planes.ground;
+        add_plane(surface, row, spans);
+    }
+    for (std::size_t i = 0; i < planes.decks.size(); ++i) {
+        surface.kind = Surface::Kind::deck;
+        surface.opaque = deck_opaque[i] != 0;
+        surface.index = static_cast<std::uint32_t>(i);
+        surface.priority = kDeckPriority + static_cast<std::uint32_t>(i);
+        surface.plane = planes.decks[i];
+        add_plane(surface, row, spans);
+    }
+    RowSpan& sky = spans.emplace_back();
+    sky.surface = {};
+    sky.surface.priority = kSkyPriority;
+    sky.surface.near_u = 0.0;
+    clear_ends(sky);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) sky.to[i] = row.columns;
+    fit_columns(row, sky);
+}
+
+}  // namespace quadrig

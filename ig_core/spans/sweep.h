@@ -1,0 +1,41 @@
+/// The scan-line sweep: spans of a pixel row in, visible runs of columns out (Gardner 1984, 2.1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ig_core/spans/priority.h"
+
+namespace quadrig {
+
+/// Columns that show the same layers, front to back; the last one is opaque where the run is whole.
+struct LayerRun {
+    int from = 0, to = 0;
+    std::uint32_t first_layer = 0, layer_count = 0;  ///< in RowSweep::layers
+    bool partial = false;                            ///< some layer covers its pixels in part
+};
+
+/// Sweeps one pixel row at a time; keeps its memory from row to row.
+class RowSweep {
+  public:
+    /// The row's spans, the sky among them, go in by `spans`; pieces of spans that cross are added to it.
+    void sweep(const PixelRow& row);
+
+    std::vector<RowSpan> spans;
+    std::vector<LayerRun> runs;
+    std::vector<std::uint32_t> layers;  ///< indices into `spans`
+
+  private:
+    void insert(std::uint32_t index, const PixelRow& row);
+    void emit(int from, int to);
+
+    struct Start {
+        int column;
+        std::uint32_t span;
+    };
+    std::vector<Start> starts_;          // by falling column: the next one is last
+    std::vector<std::uint32_t> active_;  // front to back
+    CrossingPieces pieces_;
+};
+
+}  // namespace quadrig

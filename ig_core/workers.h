@@ -1,0 +1,39 @@
+/// A team of threads for the stages of a frame: blocks of work claimed from an atomic counter, no locks, no task graph.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace quadrig {
+
+class Workers {
+  public:
+    /// `count` >= 1 workers, the calling thread among them.
+    explicit Workers(int count);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
+
+    /// Calls task(block, worker) for every block in 0..blocks-1, in any order, on all workers; returns when all are done.
+    /// `task` must not throw.
+    void run(int blocks, const std::function<void(int block, int worker)>& task);
+
+  private:
+    void work(int worker);
+    void claim_blocks(int worker);
+
+    std::vector<std::thread> threads_;
+    const std::function<void(int, int)>* task_ = nullptr;
+    int blocks_ = 0;
+    std::atomic<int> next_block_{0};
+    std::atomic<std::uint32_t> generation_{0};
+    std::atomic<int> busy_{0};
+    bool stop_ = false;
+};
+
+}  // namespace quadrig

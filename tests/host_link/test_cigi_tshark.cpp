@@ -1,0 +1,223 @@
+// Wireshark's dissector as the judge: what we encode, it must read with the same values.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "support.h"
+
+using namespace quadrig::host;
+using namespace quadrig::host::test;
+
+namespace {
+
+struct Random {
+    std::mt19937_64 engine;
+    explicit Random(std::uint64_t seed) : engine(seed) {}
+    std::uint64_t below(std::uint64_t n) { return std::uniform_int_distribution<std::uint64_t>(0, n - 1)(engine); }
+    template <class T>
+    void number(T& value) {
+        value = static_cast<T>(engine());
+    }
+    void bits(auto& value, int count) {
+        value = static_cast<std::remove_reference_t<decltype(value)>>(below(1U << count));
+    }
+    // tshark prints floats with six digits: multiples of 1/8 below 1000 need no more.
+    void number(float& value) { value = static_cast<float>(static_cast<int>(below(15999)) - 7999) / 8.0F; }
+    void number(double& value) { value = std::uniform_real_distribution<double>(-180.0, 180.0)(engine); }
+};
+
+struct Column {
+    std::string field;
+    double value;
+};
+using Columns = std::vector<Column>;
+
+Columns random_message(Random& random, Bytes& bytes, ByteOrder order) {
+    Columns c;
+    const auto expect = [&](const std::string& field, auto value) {
+        c.push_back({"cigi." + field, static_cast<double>(value)});
+    };
+    const auto number = [&](const std::string& field, auto& value) {
+        random.number(value);
+        expect(field, value);
+    };
+    const auto bits = [&](const std::string& field, auto& value, int count) {
+        random.bits(value, count);
+        expect(field, value);
+    };
+
+    cigi::IgControl ig;
+    expect("version", 3);
+    number("ig_control.db_number", ig.database);
+    // tshark takes a message with mode 3 for something other than CIGI.
+    ig.mode = static_cast<cigi::IgMode>(random.below(3));
+    expect("ig_control.ig_mode", ig.mode);
+    bits("ig_control.timestamp_valid", ig.timestamp_valid, 1);
+    bits("ig_control.extrapolation_enable", ig.smoothing, 1);
+    expect("ig_control.minor_version", 3);
+    number("ig_control.host_frame_number", ig.host_frame);
+    number("ig_control.timestamp", ig.timestamp);
+    number("ig_control.last_ig_frame_number", *ig.last_ig_frame);
+
+    cigi::EntityControl entity;
+    number("entity_control.entity_id", entity.entity);
+    bits("entity_control.entity_state", entity.state, 2);
+    bits("entity_control.attach_state", entity.attached, 1);
+    bits("entity_control.coll_det_request", entity.collision_detection, 1);
+    bits("entity_control.inherit_alpha", entity.inherit_alpha, 1);
+    bits("entity_control.ground_ocean_clamp", entity.clamp, 2);
+    bits("entity_control.animation_dir", entity.animation_backward, 1);
+    bits("entity_control.animation_loop_mode", entity.animation_loop, 1);
+    bits("entity_control.animation_state", entity.animation_state, 2);
+    bits("entity_control.extrapolation_enable", entity.smoothing, 1);
+    number("entity_control.alpha", entity.alpha);
+    number("entity_control.entity_type", entity.type);
+    number("entity_control.parent_id", entity.parent);
+    number("entity_control.roll", entity.roll);
+    number("entity_control.pitch", entity.pitch);
+    number("entity_control.yaw", entity.yaw);
+    number("entity_control.lat_xoff", entity.latitude);
+    number("entity_control.lon_yoff", entity.longitude);
+    number("entity_control.alt_zoff", entity.altitude);
+
+    cigi::ViewControl control;
+    number("view_control.view_id", control.view);
+    number("view_control.group_id", control.group);
+    bits("view_control.xoff_enable", control.x_enable, 1);
+    bits("view_control.yoff_enable", control.y_enable, 1);
+    bits("view_control.zoff_enable", control.z_enable, 1);
+    bits("view_control.roll_enable", control.roll_enable, 1);
+    bits("view_control.pitch_enable", control.pitch_enable, 1);
+    bits("view_control.yaw_enable", control.yaw_enable, 1);
+    number("view_control.entity_id", control.entity);
+    number("view_control.xoff", control.x);
+    number("view_control.yoff", control.y);
+    number("view_control.zoff", control.z);
+    number("view_control.roll", control.roll);
+    number("view_control.pitch", control.pitch);
+    number("view_control.yaw", control.yaw);
+
+    cigi::ViewDefinition definition;
+    number("view_def.view_id", definition.view);
+    number("view_def.group_id", definition.group);
+    bits("view_def.near_enable", definition.near_enable, 1);
+    bits("view_def.far_enable", definition.far_enable, 1);
+    bits("view_def.left_enable", definition.left_enable, 1);
+    bits("view_def.right_enable", definition.right_enable, 1);
+    bits("view_def.top_enable", definition.top_enable, 1);
+    bits("view_def.bottom_enable", definition.bottom_enable, 1);
+    bits("view_def.mirror_mode", definition.mirror, 2);
+    bits("view_def.pixel_replication", definition.pixel_replication, 3);
+    bits("view_def.projection_type", definition.orthographic, 1);
+    bits("view_def.reorder", definition.reorder, 1);
+    bits("view_def.view_type", definition.view_type, 3);
+    number("view_def.near", definition.near_distance);
+    number("view_def.far", definition.far_distance);
+    number("view_def.left", definition.left);
+    number("view_def.right", definition.right);
+    number("view_def.top", definition.top);
+    number("view_def.bottom", definition.bottom);
+
+    cigi::CelestialSphereControl sky;
+    number("celestial_sphere_control.hour", sky.hour);
+    number("celestial_sphere_control.minute", sky.minute);
+    bits("celestial_sphere_control.ephemeris_enable", sky.ephemeris, 1);
+    bits("celestial_sphere_control.sun_enable", sky.sun, 1);
+    bits("celestial_sphere_control.moon_enable", sky.moon, 1);
+    bits("celestial_sphere_control.star_enable", sky.stars, 1);
+    bits("celestial_sphere_control.date_time_valid", sky.date_time_valid, 1);
+    number("celestial_sphere_control.date", sky.date);
+    number("celestial_sphere_control.star_intensity", sky.star_intensity);
+
+    cigi::AtmosphereControl air;
+    bits("atmosphere_control.atmospheric_model_enable", air.model, 1);
+    number("atmosphere_control.humidity", air.humidity);
+    number("atmosphere_control.air_temp", air.air_temperature);
+    number("atmosphere_control.visibility_range", air.visibility);
+    number("atmosphere_control.horiz_wind", air.horizontal_wind);
+    number("atmosphere_control.vert_wind", air.vertical_wind);
+    number("atmosphere_control.wind_direction", air.wind_direction);
+    number("atmosphere_control.barometric_pressure", air.pressure);
+
+    bytes = message(order, ig, entity, control, definition, sky, air);
+    return c;
+}
+
+Columns random_reply(Random& random, Bytes& bytes, ByteOrder order) {
+    Columns c;
+    const auto expect = [&](const std::string& field, auto value) {
+        c.push_back({"cigi." + field, static_cast<double>(value)});
+    };
+    const auto number = [&](const std::string& field, auto& value) {
+        random.number(value);
+        expect("sof." + field, value);
+    };
+    const auto bits = [&](const std::string& field, auto& value, int count) {
+        random.bits(value, count);
+        expect("sof." + field, value);
+    };
+    cigi::StartOfFrame sof;
+    expect("version", 3);
+    number("db_number", sof.database);
+    number("ig_status", sof.status);
+    bits("ig_mode", sof.mode, 2);
+    bits("timestamp_valid", sof.timestamp_valid, 1);
+    bits("earth_reference_model", sof.host_defined_earth, 1);
+    expect("sof.minor_version", 3);
+    number("ig_frame_number", sof.ig_frame);
+    number("timestamp", sof.timestamp);
+    number("last_host_frame_number", *sof.last_host_frame);
+    bytes = message(order, sof);
+    return c;
+}
+
+double number_of(const std::string& text) {
+    if (text == "True") return 1.0;
+    if (text == "False") return 0.0;
+    std::size_t used = 0;
+    const double value =
+        text.starts_with("0x") ? static_cast<double>(std::stoull(text, &used, 16)) : std::stod(text, &used);
+    if (used != text.size()) throw std::runtime_error("not one number: " + text);
+    return value;
+}
+
+void judge(const std::string& name, ByteOrder order, const std::function<Columns(Random&, Bytes&, ByteOrder)>& make) {
+    const std::uint64_t seed = std::random_device{}();
+    INFO("seed " << seed);
+    Random random(seed);
+    PcapWriter capture(228);
+    std::vector<Columns> expected;
+    for (int i = 0; i < 300; ++i) {
+        Bytes bytes;
+        expected.push_back(make(random, bytes, order));
+        capture.packet(ipv4_udp(bytes), std::chrono::milliseconds(i));
+    }
+    std::vector<std::string> fields{"cigi.byte_swap", "_ws.malformed", "cigi.unknown"};
+    for (const auto& column : expected.front()) fields.push_back(column.field);
+    const auto rows = tshark_fields(capture.save(name + ".pcap"), fields);
+    REQUIRE(rows.size() == expected.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        REQUIRE(rows[r].size() == fields.size());
+        CHECK(number_of(rows[r][0]) == (order == ByteOrder::big ? 0x8000 : 0x0080));
+        CHECK(rows[r][1].empty());
+        CHECK(rows[r][2].empty());
+        for (std::size_t i = 0; i < expected[r].size(); ++i) {
+            INFO("message " << r << ", " << expected[r][i].field << " read as " << rows[r][i + 3]);
+            const double value = expected[r][i].value;
+            CHECK(std::abs(number_of(rows[r][i + 3]) - value) <= 1e-14 * std::abs(value));
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("tshark reads every field of every supported host packet as it was meant, little-endian") {
+    judge("host-little", ByteOrder::little, random_message);
+}
+TEST_CASE("tshark reads every field of every supported host packet as it was meant, big-endian") {
+    judge("host-big", ByteOrder::big, random_message);
+}
+TEST_CASE("tshark reads every field of Start Of Frame as it was meant, in both byte orders") {
+    judge("sof-little", ByteOrder::little, random_reply);
+    judge("sof-big", ByteOrder::big, random_reply);
+}

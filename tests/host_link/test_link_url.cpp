@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+
+#include "host_link/link_url.h"
+
+using namespace quadrig::host;
+
+namespace {
+
+std::string error_of(std::string_view text) {
+    try {
+        parse_link_url(text);
+    } catch (const LinkUrlError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("A link names its protocol, address and port") {
+    const LinkUrl cigi = parse_link_url("cigi://127.0.0.1:8004");
+    CHECK(cigi.protocol == Protocol::cigi);
+    CHECK(cigi.address == "127.0.0.1");
+    CHECK(cigi.port == 8004);
+    CHECK(cigi.text == "cigi://127.0.0.1:8004");
+    const LinkUrl fdm = parse_link_url("fdm://[::1]:5500");
+    CHECK(fdm.protocol == Protocol::flightgear_fdm);
+    CHECK(fdm.address == "::1");
+    CHECK(fdm.port == 5500);
+    CHECK(parse_link_url("cigi://0.0.0.0:1").address == "0.0.0.0");
+}
+
+TEST_CASE("Loopback is the default address") {
+    CHECK(parse_link_url("cigi://:8004").address == "127.0.0.1");
+    CHECK(parse_link_url("cigi://localhost:8004").address == "127.0.0.1");
+}
+
+TEST_CASE("A bare protocol names a recording's") {
+    CHECK(parse_link_url("fdm:").protocol == Protocol::flightgear_fdm);
+    CHECK_FALSE(parse_link_url("cigi:").port.has_value());
+}
+
+TEST_CASE("Options of a link are read") {
+    const LinkUrl url = parse_link_url("cigi://127.0.0.1:8004?version=3.3&ownship=7&view=2&altitude_offset=-48.5");
+    CHECK(url.ownship == 7);
+    CHECK(url.view == 2);
+    CHECK(url.altitude_offset == -48.5);
+    CHECK(parse_link_url("cigi:?view=3").view == 3);
+    CHECK(parse_link_url("fdm:?altitude_offset=2").altitude_offset == 2.0);
+}
+
+TEST_CASE("What a link gets wrong is said with the link") {
+    using Catch::Contains;
+    CHECK_THAT(error_of("127.0.0.1"), Contains("127.0.0.1") && Contains("cigi://127.0.0.1:8004"));
+    CHECK_THAT(error_of("http://127.0.0.1:80"), Contains("unknown scheme"));
+    CHECK_THAT(error_of("can://vcan0"), Contains("can links are not supported yet"));
+    CHECK_THAT(error_of("modbus://127.0.0.1:1502"), Contains("modbus links are not supported yet"));
+    CHECK_THAT(error_of("cigi://127.0.0.1"), Contains("no port"));
+    CHECK_THAT(error_of("cigi://[::1]"), Contains("no port"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:65536"), Contains("bad port"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:"), Contains("bad port"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80x"), Contains("bad port"));
+    CHECK_THAT(error_of("cigi://127.0.0.256:80"), Contains("bad address"));
+    CHECK_THAT(error_of("cigi://[::g]:80"), Contains("bad IPv6"));
+    CHECK_THAT(error_of("cigi://[:80"), Contains("bad IPv6"));
+    CHECK_THAT(error_of("cigi://::1:80"), Contains("brackets"));
+    CHECK_THAT(error_of("cigi:127.0.0.1:80"), Contains("//"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?version=4.0"), Contains("4.0 is not supported yet"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?version=5"), Contains("unknown CIGI version"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));
+    CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
+}

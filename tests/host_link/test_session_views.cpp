@@ -1,0 +1,252 @@
+// Views, environment and the answer to the host.
+#include <catch2/catch.hpp>
+
+#include "host_link/session.h"
+#include "support.h"
+
+using namespace quadrig;
+using namespace quadrig::host;
+using namespace quadrig::host::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Host {
+    Session session;
+    std::uint32_t frame = 0;
+    Time now = 0ms;
+    explicit Host(SessionOptions options = {}) : session(options) {}
+    template <class... P>
+    const HostState& send(const P&... packets) {
+        session.accept(
+            message(frame % 2 == 0 ? ByteOrder::big : ByteOrder::little, ig_control(frame, frame), packets...), now);
+        ++frame;
+        return session.state();
+    }
+    std::uint64_t refused() { return session.statistics().rejected_for(Reject::out_of_range); }
+};
+
+cigi::ViewControl full_view_control(std::uint16_t view) {
+    cigi::ViewControl p;
+    p.view = view;
+    p.x_enable = p.y_enable = p.z_enable = p.roll_enable = p.pitch_enable = p.yaw_enable = true;
+    p.x = 3.0F;
+    p.y = -0.5F;
+    p.z = -1.2F;
+    p.yaw = 30.0F;
+    p.pitch = -4.0F;
+    p.roll = 1.0F;
+    return p;
+}
+
+cigi::ViewDefinition full_view_definition(std::uint16_t view) {
+    cigi::ViewDefinition p;
+    p.view = view;
+    p.left_enable = p.right_enable = p.top_enable = p.bottom_enable = true;
+    p.left = -40.0F;
+    p.right = 20.0F;
+    p.top = 15.0F;
+    p.bottom = -10.0F;
+    return p;
+}
+
+cigi::CelestialSphereControl noon() {
+    cigi::CelestialSphereControl p;
+    p.date_time_valid = true;
+    p.hour = 12;
+    p.minute = 30;
+    p.date = 2282024;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("View Control's body axes become the mount's: forward, right, down to right, forward, up") {
+    Host host;
+    const ViewMount mount = host.send(full_view_control(1)).mount.value();
+    CHECK(mount.offset.x == -0.5);
+    CHECK(mount.offset.y == 3.0);
+    CHECK(mount.offset.z == Approx(1.2).epsilon(1e-7));
+    CHECK(mount.attitude.heading.value == 30.0);
+    CHECK(mount.attitude.pitch.value == -4.0);
+    CHECK(mount.attitude.roll.value == 1.0);
+}
+
+TEST_CASE("View Control changes only what it enables") {
+    Host host;
+    host.send(full_view_control(1));
+    cigi::ViewControl yaw_only;
+    yaw_only.view = 1;
+    yaw_only.yaw_enable = true;
+    yaw_only.yaw = 99.0F;
+    yaw_only.x = 50.0F;
+    const ViewMount mount = host.send(yaw_only).mount.value();
+    CHECK(mount.attitude.heading.value == 99.0);
+    CHECK(mount.offset.y == 3.0);
+    CHECK(mount.attitude.pitch.value == -4.0);
+}
+
+TEST_CASE("Ours is the view that was asked for, or the first one that the host names") {
+    Host first;
+    first.send(full_view_control(4));
+    first.send(full_view_definition(5));
+    CHECK(first.session.state().mount.has_value());
+    CHECK_FALSE(first.session.state().window.has_value());
+    SessionOptions options;
+    options.view = 5;
+    Host asked(options);
+    asked.send(full_view_control(4));
+    asked.send(full_view_definition(5));
+    CHECK_FALSE(asked.session.state().mount.has_value());
+    CHECK(asked.session.state().window.has_value());
+}
+
+TEST_CASE("View groups are not followed, and a view on another entity is counted") {
+    Host host;
+    auto group = full_view_control(1);
+    group.group = 3;
+    CHECK_FALSE(host.send(group).mount.has_value());
+    auto elsewhere = full_view_control(1);
+    elsewhere.entity = 12;
+    CHECK_FALSE(host.send(elsewhere).mount.has_value());
+    CHECK(host.session.statistics().rejected_for(Reject::view_of_other_entity) == 1);
+}
+
+TEST_CASE("View Definition sets the window; its flags enable each angle by itself") {
+    Host host;
+    const ViewWindow window = host.send(full_view_definition(1)).window.value();
+    CHECK(window.left.value == -40.0);
+    CHECK(window.right.value == 20.0);
+    CHECK(window.top.value == 15.0);
+    CHECK(window.bottom.value == -10.0);
+    cigi::ViewDefinition right;
+    right.view = 1;
+    right.right_enable = true;
+    right.right = 35.0F;
+    right.left = 5.0F;
+    CHECK(host.send(right).window->right.value == 35.0);
+    CHECK(host.session.state().window->left.value == -40.0);
+}
+
+TEST_CASE("A View Definition of some angles waits for the others, or takes them from the default window") {
+    cigi::ViewDefinition sides;
+    sides.left_enable = sides.right_enable = true;
+    sides.left = -10.0F;
+    sides.right = 10.0F;
+    Host bare;
+    CHECK_FALSE(bare.send(sides).window.has_value());
+    SessionOptions options;
+    options.default_window = ViewWindow{{-30.0}, {30.0}, {20.0}, {-20.0}};
+    Host filled(options);
+    CHECK_FALSE(filled.send(cigi::ViewDefinition{}).window.has_value());
+    CHECK(filled.send(sides).window->top.value == 20.0);
+    CHECK(filled.session.state().window->right.value == 10.0);
+}
+
+TEST_CASE("Windows that cannot be drawn are refused as a whole") {
+    Host host;
+    auto crossed = full_view_definition(1);
+    crossed.left = 25.0F;
+    CHECK_FALSE(host.send(crossed).window.has_value());
+    auto wide = full_view_definition(1);
+    wide.top = 90.0F;
+    CHECK_FALSE(host.send(wide).window.has_value());
+    auto nan = full_view_definition(1);
+    nan.bottom = std::numeric_limits<float>::quiet_NaN();
+    CHECK_FALSE(host.send(nan).window.has_value());
+    CHECK(host.refused() == 3);
+}
+
+TEST_CASE("Visibility is the atmosphere's, never negative and never zero") {
+    Host host;
+    cigi::AtmosphereControl air;
+    air.visibility = 12500.0F;
+    CHECK(host.send(air).visibility == 12500.0);
+    air.visibility = -1.0F;
+    CHECK(host.send(air).visibility == 12500.0);
+    air.visibility = std::numeric_limits<float>::infinity();
+    CHECK(host.send(air).visibility == 12500.0);
+    CHECK(host.refused() == 2);
+    air.visibility = 0.0F;
+    CHECK(host.send(air).visibility == 1.0);
+}
+
+TEST_CASE("Date and time are the host's; without ephemeris they stand, with it they run over midnight and leap days") {
+    Host host;
+    auto sky = noon();
+    sky.hour = 23;
+    sky.minute = 59;
+    host.send(sky);
+    host.now = 90s;
+    CivilTime utc = host.send().utc.value();
+    CHECK(utc.year == 2024);
+    CHECK(utc.day == 28);
+    CHECK(utc.minute == 59);
+    CHECK(utc.second == 0.0);
+    sky.ephemeris = true;
+    host.send(sky);
+    host.now += 90s;
+    utc = host.send().utc.value();
+    CHECK(utc.month == 2);
+    CHECK(utc.day == 29);
+    CHECK(utc.hour == 0);
+    CHECK(utc.minute == 0);
+    CHECK(utc.second == 30.0);
+    // The same packet again does not set the clock back.
+    CHECK(host.send(sky).utc->second == 30.0);
+}
+
+TEST_CASE("Dates that are not valid, or not in the calendar, are not taken") {
+    Host host;
+    auto sky = noon();
+    sky.date_time_valid = false;
+    CHECK_FALSE(host.send(sky).utc.has_value());
+    CHECK(host.refused() == 0);
+    for (const std::uint32_t bad : {2302024U, 2292023U, 13012024U, 2024U, 0U, 4000000000U}) {
+        sky = noon();
+        sky.date = bad;
+        CHECK_FALSE(host.send(sky).utc.has_value());
+    }
+    sky = noon();
+    sky.hour = 24;
+    CHECK_FALSE(host.send(sky).utc.has_value());
+    CHECK(host.refused() == 7);
+}
+
+TEST_CASE("The host's mode is followed") {
+    for (const auto& [wire, mode] : {std::pair{cigi::IgMode::standby, Mode::standby},
+                                     {cigi::IgMode::operate, Mode::operate},
+                                     {cigi::IgMode::debug, Mode::debug}}) {
+        Session session(SessionOptions{});
+        auto ig = ig_control(0);
+        ig.mode = wire;
+        session.accept(message(ByteOrder::big, ig), 0ms);
+        CHECK(session.state().mode == mode);
+    }
+}
+
+TEST_CASE("Start Of Frame answers in the host's byte order and version, with both frame numbers") {
+    for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
+        Session session(SessionOptions{});
+        CHECK_FALSE(session.reply_context().has_value());
+        auto ig = ig_control(4711);
+        ig.database = 3;
+        session.accept(message(order, ig), 0ms);
+        std::array<std::byte, cigi::StartOfFrame::kSize> bytes{};
+        REQUIRE(start_of_frame(session.reply_context().value(), 99, 123450us, bytes) == 24);
+        const auto sof = cigi::decode<cigi::StartOfFrame>(bytes, order);
+        CHECK(sof.ig_frame == 99);
+        CHECK(sof.last_host_frame == 4711U);
+        CHECK(sof.timestamp == 12345);
+        CHECK(sof.timestamp_valid);
+        CHECK(sof.mode == cigi::IgMode::operate);
+        CHECK(sof.minor_version == 3);
+        CHECK(sof.database == 3);
+        CHECK(load<std::uint16_t>(bytes, 6, order) == 0x8000);
+
+        ig.last_ig_frame.reset();
+        ig.minor_version = 0;
+        session.accept(message(order, ig), 0ms);
+        CHECK(start_of_frame(session.reply_context().value(), 99, 0ms, bytes) == 16);
+    }
+}

@@ -1,0 +1,199 @@
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "host_link/udp_link.h"
+#include "support.h"
+
+using namespace quadrig;
+using namespace quadrig::host;
+using namespace quadrig::host::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+Time monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+
+/// A host's socket on the loopback interface.
+class Peer {
+  public:
+    explicit Peer(std::uint16_t port) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port = htons(port);
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        REQUIRE(connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0);
+    }
+    ~Peer() { close(socket_); }
+    Peer(const Peer&) = delete;
+    Peer& operator=(const Peer&) = delete;
+    void send(const Bytes& bytes) { ::send(socket_, bytes.data(), bytes.size(), 0); }
+    Bytes receive(std::chrono::milliseconds patience = 2000ms) {
+        pollfd waiting{socket_, POLLIN, 0};
+        Bytes bytes(100);
+        if (poll(&waiting, 1, static_cast<int>(patience.count())) != 1) return {};
+        const auto size = recv(socket_, bytes.data(), bytes.size(), 0);
+        bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+        return bytes;
+    }
+
+  private:
+    int socket_;
+};
+
+bool wait_until(const auto& condition) {
+    for (const auto end = std::chrono::steady_clock::now() + 5s; std::chrono::steady_clock::now() < end;) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(1ms);
+    }
+    return false;
+}
+
+Bytes frame(std::uint32_t number, ByteOrder order = ByteOrder::big) {
+    return message(order, ig_control(number, number * 1667), ownship(40.0 + number * 1e-3));
+}
+
+}  // namespace
+
+TEST_CASE("What a host sends over UDP is the newest state a moment later, with a monotonic arrival time") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    REQUIRE(link.port() != 0);
+    Peer host(link.port());
+    const Time before = monotonic_now();
+    host.send(frame(0));  // queued by the kernel before the link has started
+    link.start(session_options(link.url(), {}));
+    HostState state;
+    REQUIRE(wait_until([&] { return link.take_newest(state); }));
+    CHECK(state.host_frame == 0U);
+    CHECK(state.pose->arrival > before - 5ms);
+    CHECK(state.pose->arrival < monotonic_now() + 5ms);
+    CHECK_FALSE(link.take_newest(state));
+    for (std::uint32_t f = 1; f <= 200; ++f) host.send(frame(f));
+    REQUIRE(wait_until([&] {
+        link.take_newest(state);
+        return state.host_frame == 200U;
+    }));
+    CHECK(link.statistics().datagrams == 201);
+    CHECK(link.statistics().lost == 0);
+    CHECK(state.pose->arrival > state.earlier->arrival);
+    link.stop();
+    CHECK(link.statistics().frames == 201);
+}
+
+TEST_CASE("Start Of Frame goes back to the host that was heard last, in its byte order") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), {}));
+    HostState state;
+    link.send_start_of_frame(0, 0ms);
+    CHECK(link.replies_sent() == 0);
+    Peer first(link.port()), second(link.port());
+    std::uint32_t number = 0;
+    for (const auto& [peer, order] :
+         {std::pair{&first, ByteOrder::little}, {&second, ByteOrder::big}, {&first, ByteOrder::little}}) {
+        peer->send(frame(++number, order));
+        REQUIRE(wait_until([&] { return link.take_newest(state); }));
+        link.send_start_of_frame(100 + number, 5ms);
+        const Bytes reply = peer->receive();
+        REQUIRE(reply.size() == 24);
+        const auto sof = cigi::decode<cigi::StartOfFrame>(reply, order);
+        CHECK(sof.ig_frame == 100 + number);
+        CHECK(sof.last_host_frame == number);
+        CHECK(sof.timestamp == 500);
+    }
+    CHECK(link.replies_sent() == 3);
+    CHECK(link.replies_failed() == 0);
+}
+
+TEST_CASE("Garbage is counted, answered by nothing, and leaves the link alive") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), {}));
+    Peer host(link.port());
+    host.send({});
+    host.send(Bytes(1000));
+    host.send(from_hex("0118"));
+    HostState state;
+    REQUIRE(wait_until([&] { return link.statistics().datagrams == 3; }));
+    CHECK(link.statistics().rejected_in_all() == 3);
+    CHECK_FALSE(link.take_newest(state));
+    link.send_start_of_frame(1, 0ms);
+    CHECK(host.receive(50ms).empty());
+    host.send(frame(1));
+    CHECK(wait_until([&] { return link.take_newest(state); }));
+}
+
+TEST_CASE("A host that went away does not stop the link") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), {}));
+    HostState state;
+    {
+        Peer gone(link.port());
+        gone.send(frame(1));
+        REQUIRE(wait_until([&] { return link.take_newest(state); }));
+    }
+    for (std::uint32_t i = 0; i < 10; ++i) link.send_start_of_frame(i, 0ms);
+    Peer back(link.port());
+    back.send(frame(2));
+    CHECK(wait_until([&] { return link.take_newest(state); }));
+}
+
+TEST_CASE("A flood of datagrams, one in ten valid, loses none of the valid ones that the kernel delivers") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), {}));
+    Peer host(link.port());
+    const Bytes noise(64);
+    for (std::uint32_t f = 1; f <= 2000; ++f) {
+        host.send(frame(f));
+        for (int i = 0; i < 9; ++i) host.send(noise);
+        if (f % 20 == 0) std::this_thread::sleep_for(1ms);
+    }
+    REQUIRE(wait_until(
+        [&] { return link.statistics().last_pose && link.statistics().last_pose->position.latitude.value > 41.99; }));
+    const LinkStatistics statistics = link.statistics();
+    CHECK(statistics.frames + statistics.lost == 2000);
+    CHECK(statistics.frames > 1000);
+    CHECK(statistics.rejected_in_all() + statistics.frames == statistics.datagrams);
+}
+
+TEST_CASE("A port that is taken is a clear error") {
+    UdpLink link(parse_link_url("fdm://127.0.0.1:0"));
+    const std::string url = "fdm://127.0.0.1:" + std::to_string(link.port());
+    CHECK_THROWS_WITH(UdpLink(parse_link_url(url)), Catch::Contains(url) && Catch::Contains("in use"));
+    CHECK_THROWS_WITH(UdpLink(parse_link_url("cigi:")), Catch::Contains("needs ADDRESS:PORT"));
+}
+
+TEST_CASE("A link stops at once, started or not, and twice") {
+    UdpLink idle(parse_link_url("cigi://127.0.0.1:0"));
+    idle.stop();
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), {}));
+    const auto before = std::chrono::steady_clock::now();
+    link.stop();
+    link.stop();
+    CHECK(std::chrono::steady_clock::now() - before < 1s);
+}
+
+TEST_CASE("IPv6 loopback works where the machine has it") {
+    const int probe = socket(AF_INET6, SOCK_DGRAM, 0);
+    sockaddr_in6 address{};
+    address.sin6_family = AF_INET6;
+    address.sin6_addr = in6addr_loopback;
+    const bool available = probe >= 0 && bind(probe, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+    if (!available) {
+        if (probe >= 0) close(probe);
+        CHECK_THROWS(UdpLink(parse_link_url("cigi://[::1]:0")));
+        return;
+    }
+    UdpLink link(parse_link_url("cigi://[::1]:0"));
+    link.start(session_options(link.url(), {}));
+    address.sin6_port = htons(link.port());
+    const Bytes bytes = frame(1);
+    sendto(probe, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    HostState state;
+    CHECK(wait_until([&] { return link.take_newest(state); }));
+    close(probe);
+}

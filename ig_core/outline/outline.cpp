@@ -200,13 +200,26 @@ int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {
     return count;
 }
 
+void limb_on_lines(const Outline& outline, const double* z, std::size_t count, double* from, double* to) {
+    // In the object's own image coordinates beta is small beside the root and alpha far from 0: nothing cancels.
+    const RowConic& limb = outline.curves[0];
+    const double inverse = 1.0 / limb.alpha, x0 = outline.solid.x0, z0 = outline.solid.z0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double zeta = z[i] - z0;
+        const double discriminant = limb.discriminant_at(zeta), middle = x0 - limb.beta_at(zeta) * inverse;
+        const double reach = -std::sqrt(std::max(0.0, discriminant)) * inverse;  // alpha < 0
+        from[i] = discriminant > 0.0 ? middle - reach : 1.0;
+        to[i] = discriminant > 0.0 ? middle + reach : 0.0;
+    }
+}
+
 int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
     const double zeta = z - outline.solid.z0, x0 = outline.solid.x0;
     if (zeta < outline.zeta_from || zeta > outline.zeta_to) return 0;
     if (outline.direct) return cuts_on_row_directly(outline, z, cuts);
     if (outline.limb_only) {
-        const RowRoots limb = roots_on_row(outline.curves[0], zeta);
-        cuts[0] = {x0 + limb.rising, x0 + limb.falling, 0};
+        limb_on_lines(outline, &z, 1, &cuts[0].from, &cuts[0].to);
+        cuts[0].surface = 0;
         return cuts[0].from < cuts[0].to ? 1 : 0;
     }
     const auto band = std::lower_bound(outline.bands.begin(), outline.bands.end(), zeta,

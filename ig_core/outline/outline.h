@@ -86,6 +86,9 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 /// kMaxCuts).
 int cuts_on_row(const Outline& outline, double z, Cut* cuts);
 
+/// Ends of an outline that is nothing but its limb, on several scan lines at once; from > to where a line misses it.
+void limb_on_lines(const Outline& outline, const double* z, std::size_t count, double* from, double* to);
+
 /// The same without z-bands: every boundary candidate of the row, every interval asked.
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts);
 

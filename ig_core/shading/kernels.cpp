@@ -59,6 +59,10 @@ void CompositeWhole(const ShadeBuffer& buffer, std::span<const std::uint32_t> sa
 
 /// Share of each cell of one pixel that a span covers, sub-scan line by sub-scan line.
 HWY_INLINE void cell_cover(const RowSpan& span, int column, int sub_lines, float* HWY_RESTRICT cover) {
+    if (span.inner_from <= column && column < span.inner_to) {
+        std::fill_n(cover, kCellsPerLine * sub_lines, 1.0F);
+        return;
+    }
     for (int line = 0; line < sub_lines; ++line) {
         const auto l = static_cast<std::size_t>(line);
         const float from = static_cast<float>(span.from[l] - column) * kCellsPerLine;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace quadrig {
@@ -84,6 +85,38 @@ class Crossings {
     bool points_, a_wins_ties_;
 };
 
+/// Most pairs lie clear of one another: bounds of 1/k on the first and last sub-scan line settle them. (What the lines between
+/// could add is less than a sub-scan line high.) The surface that spans more depth is bounded first.
+std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
+    const auto spread = [](const Surface& s) { return s.near_u - s.far_u; };
+    const bool a_first = spread(a.surface) >= spread(b.surface);
+    const RowSpan &wide = a_first ? a : b, &narrow = a_first ? b : a;
+    double wide_least = wide.surface.near_u, wide_most = wide.surface.far_u;
+    double narrow_least = narrow.surface.near_u, narrow_most = narrow.surface.far_u;
+    bool any = false;
+    const auto lines = static_cast<std::size_t>(row.sub_lines);
+    const auto for_outer_lines = [&](const RowSpan& span, double& least, double& most) {
+        least = std::numeric_limits<double>::infinity(), most = -least;
+        for (std::size_t line = 0; line < lines; line += std::max<std::size_t>(1, lines - 1)) {
+            const double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
+            if (!(from < to)) continue;
+            const auto bounds = DepthOnLine(span.surface, row, row.z[line]).between(from, to);
+            least = std::min(least, bounds.least), most = std::max(most, bounds.most);
+            any = true;
+        }
+    };
+    for_outer_lines(wide, wide_least, wide_most);
+    if (!any) return std::nullopt;
+    const auto settled = [&](double narrow_low, double narrow_high) -> std::optional<Priority> {
+        if (wide_least > narrow_high) return a_first ? Priority::front : Priority::behind;
+        if (narrow_low > wide_most) return a_first ? Priority::behind : Priority::front;
+        return std::nullopt;
+    };
+    if (const auto proven = settled(narrow.surface.far_u, narrow.surface.near_u)) return proven;
+    for_outer_lines(narrow, narrow_least, narrow_most);
+    return settled(narrow_least, narrow_most);
+}
+
 void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, double to) {
     if (piece.splits == 0) {
         piece = whole;
@@ -103,6 +136,8 @@ Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, Cr
     if (sb.far_u >= sa.near_u) return Priority::behind;
     // Surfaces of one object lie side by side.
     if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
+
+    if (const auto proven = proven_on_outer_lines(a, b, row)) return *proven;
 
     for (RowSpan& piece : pieces) piece.splits = 0;
     bool front = false, behind = false;

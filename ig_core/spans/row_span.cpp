@@ -1,5 +1,6 @@
 #include "ig_core/spans/row_span.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,19 @@ DepthOnLine::Sample DepthOnLine::at(double column) const {
     const double a = a_[0] + xi * (a_[1] + xi * a_[2]), a_slope = a_[1] + 2.0 * xi * a_[2];
     const double sum = b + root, u = -a / sum;
     return {u, step_ * (-a_slope - u * (b1_ + 0.5 * d_slope / root)) / sum};
+}
+
+DepthOnLine::Bounds DepthOnLine::between(double from, double to) const {
+    const Sample left = at(from), right = at(to);
+    const double least = std::min(left.u, right.u), end_most = std::max(left.u, right.u);
+    if (left.slope <= 0.0 || right.slope >= 0.0) return {least, end_most};  // the ends are the extremes
+    const bool tangent_l = std::isfinite(left.slope), tangent_r = std::isfinite(right.slope);
+    const double width = to - from;
+    if (!tangent_l && !tangent_r) return {least, std::numeric_limits<double>::infinity()};
+    if (!tangent_l) return {least, right.u - right.slope * width};
+    if (!tangent_r) return {least, left.u + left.slope * width};
+    const double t = (right.u - left.u - right.slope * width) / (left.slope - right.slope);
+    return {least, left.u + left.slope * t};
 }
 
 }  // namespace quadrig

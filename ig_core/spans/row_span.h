@@ -64,6 +64,12 @@ class DepthOnLine {
     };
     [[nodiscard]] Sample at(double column) const;
 
+    /// Bounds of u over a stretch of the line: the lower end of its chord, and its tangents at both ends.
+    struct Bounds {
+        double least, most;
+    };
+    [[nodiscard]] Bounds between(double from, double to) const;
+
   private:
     bool plane_;
     double u0_ = 0, u1_ = 0;           // plane: u0 + u1 column

@@ -64,13 +64,38 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
 }
 
 void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, std::vector<RowSpan>& spans) {
+    const auto surface_of = [&](int surface) {
+        return Surface{surface == 0 ? Surface::Kind::quadric : Surface::Kind::face,
+                       opaque,
+                       surface,
+                       index,
+                       outline.object,
+                       &outline,
+                       {},
+                       outline.near_u,
+                       outline.far_u};
+    };
+    if (outline.limb_only) {
+        RowSpan& span = spans.emplace_back();
+        const auto lines = static_cast<std::size_t>(row.sub_lines);
+        limb_on_lines(outline, row.z.data(), lines, span.from.data(), span.to.data());
+        const double scale = 1.0 / row.column_step;
+        for (std::size_t i = 0; i < lines; ++i) {
+            span.from[i] = (span.from[i] - row.left) * scale;
+            span.to[i] = (span.to[i] - row.left) * scale;
+        }
+        if (fit_columns(row, span)) span.surface = surface_of(0);
+        else spans.pop_back();
+        return;
+    }
+    const double scale = 1.0 / row.column_step;
     const std::size_t first = spans.size();
     std::array<Cut, kMaxCuts> cuts;
     for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line) {
         const int count = cuts_on_row(outline, row.z[line], cuts.data());
         std::size_t next = first;  // cuts and spans both run from left to right
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-            const double from = row.column(cuts[i].from), to = row.column(cuts[i].to);
+            const double from = (cuts[i].from - row.left) * scale, to = (cuts[i].to - row.left) * scale;
             if (!(to > 0.0 && from < row.columns)) continue;
             std::size_t at = next;
             while (at < spans.size() &&
@@ -78,15 +103,7 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
                 ++at;
             if (at == spans.size()) {
                 RowSpan& span = spans.emplace_back();
-                span.surface = {cuts[i].surface == 0 ? Surface::Kind::quadric : Surface::Kind::face,
-                                opaque,
-                                cuts[i].surface,
-                                index,
-                                outline.object,
-                                &outline,
-                                {},
-                                outline.near_u,
-                                outline.far_u};
+                span.surface = surface_of(cuts[i].surface);
                 clear_ends(span);
             } else {
                 next = at + 1;

@@ -87,7 +87,8 @@ void ImageGenerator::Impl::make_outlines(const View& view, int sub_lines) {
         const int end = std::min(count, (block + 1) * kOutlineBlock);
         for (int i = block * kOutlineBlock; i < end; ++i) {
             const std::uint32_t object = selected[static_cast<std::size_t>(i)];
-            make_outline(solids[object], object, view.eye, view.eye_from_scene, rows, outlines[static_cast<std::size_t>(i)]);
+            make_outline(solids[object], object, view.eye, view.eye_from_scene, rows,
+                         outlines[static_cast<std::size_t>(i)]);
         }
     };
     workers.run((count + kOutlineBlock - 1) / kOutlineBlock, std::ref(task));
@@ -100,7 +101,8 @@ void ImageGenerator::Impl::assign_strips(const View& view) {
     const auto strips_of = [&](const Outline& outline) {
         const double first = (image.top - (outline.zeta_to + outline.solid.z0)) / image.row_step;
         const double last = (image.top - (outline.zeta_from + outline.solid.z0)) / image.row_step;
-        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height)) return std::pair{1, 0};
+        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height))
+            return std::pair{1, 0};
         const auto strip = [&](double row) {
             return static_cast<int>(std::clamp(std::floor(row), 0.0, image.height - 1.0)) / kStripRows;
         };
@@ -116,7 +118,8 @@ void ImageGenerator::Impl::assign_strips(const View& view) {
     for (std::size_t i = selected.size(); i-- > 0;) {
         const auto [from, to] = strips_of(outlines[i]);
         // Filled from the back, so that strip_begin ends up where each strip starts.
-        for (int s = from; s <= to; ++s) strip_outlines[--strip_begin[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
+        for (int s = from; s <= to; ++s)
+            strip_outlines[--strip_begin[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
     }
     std::rotate(strip_begin.begin(), strip_begin.begin() + 1, strip_begin.end());
     strip_begin.back() = static_cast<std::uint32_t>(strip_outlines.size());
@@ -151,7 +154,8 @@ PixelRow pixel_row(const View& view, int r, int sub_lines, bool point_samples) {
 
 }  // namespace
 
-ImageGenerator::ImageGenerator(Scene scene, int threads) : impl_(std::make_unique<Impl>(std::move(scene), std::max(1, threads))) {}
+ImageGenerator::ImageGenerator(Scene scene, int threads)
+    : impl_(std::make_unique<Impl>(std::move(scene), std::max(1, threads))) {}
 ImageGenerator::~ImageGenerator() = default;
 const Scene& ImageGenerator::scene() const { return impl_->scene; }
 std::string_view ImageGenerator::simd_target() { return simd_target_name(); }
@@ -220,7 +224,8 @@ GroundTruth ImageGenerator::ground_truth(const View& view) {
                 const DepthOnLine depth(surface, row, row.z[0]);
                 const bool ground = surface.kind == Surface::Kind::ground;
                 for (int c = run.from; c < run.to; ++c) {
-                    const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(c);
+                    const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(image.width) +
+                                    static_cast<std::size_t>(c);
                     truth.object_ids[at] = ground ? kGroundId : static_cast<std::int32_t>(surface.outline->object);
                     truth.surface_ids[at] = surface.surface;
                     truth.depth[at] = 1.0 / depth.at(c + 0.5).u;

@@ -19,8 +19,8 @@ class Workers {
 
     [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls task(block, worker) for every block in 0..blocks-1, in any order, on all workers; returns when all are done.
-    /// `task` must not throw.
+    /// Calls task(block, worker) for every block in 0..blocks-1, in any order, on all workers; returns when all are
+    /// done. `task` must not throw.
     void run(int blocks, const std::function<void(int block, int worker)>& task);
 
   private:

@@ -10,7 +10,8 @@ namespace quadrig {
 /// Paints of objects, ground and decks; pointers lead into `textures`.
 struct FramePaints {
     std::vector<FrameTexture> textures;
-    std::vector<std::vector<TextureTerm>> terms;  ///< the scene's, by rising frequency: filtering drops them from the end
+    std::vector<std::vector<TextureTerm>>
+        terms;  ///< the scene's, by rising frequency: filtering drops them from the end
     std::vector<FramePaint> objects, decks;
     FramePaint ground;
 };

@@ -81,13 +81,13 @@ struct TextureSample {
     V value, lost_variance;
 };
 
-/// The texturing function (Eq 15) at points p, metres from the eye in scene axes. `footprint_x` and `footprint_y` are the mean
-/// squared growth of the two sine families' arguments per unit frequency over a pixel (m^2): each sine is faded as
-/// (1 - w^2 footprint / 48)^2, which follows the box filter's exp(-w^2 footprint / 24) and ends a little above the
-/// sampling frequency, where the term is dropped.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE TextureSample<V> texturing_function(D d, const FrameTexture& texture, const Vec3<V>& p, V footprint_x,
-                                               V footprint_y) {
+/// The texturing function (Eq 15) at points p, metres from the eye in scene axes. `footprint_x` and `footprint_y` are
+/// the mean squared growth of the two sine families' arguments per unit frequency over a pixel (m^2): each sine is
+/// faded as (1 - w^2 footprint / 48)^2, which follows the box filter's exp(-w^2 footprint / 24) and ends a little above
+/// the sampling frequency, where the term is dropped.
+template <bool kVertical, bool kLostVariance, class D, class V = hn::Vec<D>>
+HWY_INLINE TextureSample<V> texturing_terms(D d, const FrameTexture& texture, const Vec3<V>& p, V footprint_x,
+                                            V footprint_y) {
     constexpr float kFade = 4.0F * 9.8696044F / 48.0F;  // (2 pi)^2 / 48, for frequencies in turns
     const V one = hn::Set(d, 1.0F), zero = hn::Zero(d), quarter = hn::Set(d, 0.25F), half = hn::Set(d, 0.5F);
     const V half_u = hn::Set(d, 0.5F * texture.vertical);
@@ -99,9 +99,11 @@ HWY_INLINE TextureSample<V> texturing_function(D d, const FrameTexture& texture,
         const V keep_x = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, one));
         const V keep_y = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, one));
         const V filter_x = hn::Mul(keep_x, keep_x), filter_y = hn::Mul(keep_y, keep_y);
-        const V variance = hn::Set(d, 0.125F * term.weight * term.weight);
-        lost_x = hn::MulAdd(variance, hn::NegMulAdd(filter_x, filter_x, one), lost_x);
-        lost_y = hn::MulAdd(variance, hn::NegMulAdd(filter_y, filter_y, one), lost_y);
+        if constexpr (kLostVariance) {
+            const V variance = hn::Set(d, 0.125F * term.weight * term.weight);
+            lost_x = hn::MulAdd(variance, hn::NegMulAdd(filter_x, filter_x, one), lost_x);
+            lost_y = hn::MulAdd(variance, hn::NegMulAdd(filter_y, filter_y, one), lost_y);
+        }
         if (hn::AllTrue(d, hn::Eq(hn::Max(keep_x, keep_y), zero))) {
             for (++i; i < texture.count; ++i) {
                 const float rest = texture.terms[static_cast<std::size_t>(i)].weight;
@@ -115,7 +117,7 @@ HWY_INLINE TextureSample<V> texturing_function(D d, const FrameTexture& texture,
         V phase_y = hn::MulAdd(full, p.y, hn::Set(d, term.along_y));
         phase_x = hn::MulAdd(quarter, sin_turns(d, hn::MulAdd(halved, p.y, hn::Set(d, term.half_y))), phase_x);
         phase_y = hn::MulAdd(quarter, sin_turns(d, hn::MulAdd(halved, p.x, hn::Set(d, term.half_x))), phase_y);
-        if (texture.vertical != 0.0F) {
+        if constexpr (kVertical) {
             const V up = hn::MulAdd(halved, p.z, hn::Set(d, term.half_z));
             phase_x = hn::MulAdd(half_u, sin_turns(d, up), phase_x);
             phase_y = hn::MulAdd(half_u, sin_turns(d, hn::Add(up, quarter)), phase_y);
@@ -126,6 +128,13 @@ HWY_INLINE TextureSample<V> texturing_function(D d, const FrameTexture& texture,
     }
     const V lost = hn::MulAdd(hn::Mul(sum_x, sum_x), lost_y, hn::Mul(hn::MulAdd(sum_y, sum_y, lost_y), lost_x));
     return {hn::Mul(sum_x, sum_y), lost};
+}
+
+template <bool kLostVariance, class D, class V = hn::Vec<D>>
+HWY_INLINE TextureSample<V> texturing_function(D d, const FrameTexture& texture, const Vec3<V>& p, V footprint_x,
+                                               V footprint_y) {
+    return texture.vertical != 0.0F ? texturing_terms<true, kLostVariance>(d, texture, p, footprint_x, footprint_y)
+                                    : texturing_terms<false, kLostVariance>(d, texture, p, footprint_x, footprint_y);
 }
 
 /// Where the rays of a few columns meet a surface, and what light needs to know there.
@@ -150,7 +159,8 @@ HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const
     const V numerator = hn::IfThenElse(before, hn::Set(d, in.c), hn::Add(b, root));
     const V denominator = hn::IfThenElse(before, hn::Sub(root, b), hn::Neg(a));
     V depth = hn::Div(numerator, denominator);
-    depth = hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth));
+    depth =
+        hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth));
     const Vec3<V> q = mul_add(depth, ray, splat(d, in.eye_from_anchor));
     const V xx = hn::Set(d, in.m[0]), yy = hn::Set(d, in.m[1]), zz = hn::Set(d, in.m[2]);
     const V xy = hn::Set(d, in.m[3]), xz = hn::Set(d, in.m[4]), yz = hn::Set(d, in.m[5]);
@@ -162,8 +172,7 @@ HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const
     const V g = hn::Div(hn::Mul(limb, hn::Set(d, in.inverse_centre_value)), hn::Max(a, tiny));
     const bool has_limb = in.inverse_centre_value > 0.0F;
     const V one = hn::Set(d, 1.0F);
-    return {depth, normal, inverse_length,
-            has_limb ? hn::IfThenElse(hn::Gt(a, zero), hn::Min(one, g), one) : one};
+    return {depth, normal, inverse_length, has_limb ? hn::IfThenElse(hn::Gt(a, zero), hn::Min(one, g), one) : one};
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -223,14 +232,17 @@ HWY_INLINE void shade_columns(const ShadeInput& in, ShadeBuffer& buffer, std::si
                 const V footprint_x = hn::Add(in_x, hn::MulAdd(across, in_y, up));
                 const V footprint_y = hn::Add(in_y, hn::MulAdd(across, in_x, up));
                 const Vec3<V> p{hn::Mul(point.depth, ray.x), hn::Mul(point.depth, ray.y), hn::Mul(point.depth, ray.z)};
-                const TextureSample<V> t = texturing_function(d, *paint.texture, p, footprint_x, footprint_y);
+                const TextureSample<V> t =
+                    paint.translucent ? texturing_function<true>(d, *paint.texture, p, footprint_x, footprint_y)
+                                      : texturing_function<false>(d, *paint.texture, p, footprint_x, footprint_y);
                 intensity = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t.value, lit), lit);
                 if (paint.translucent) {
                     const V threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
                                                    hn::Sub(one, point.limb), hn::Set(d, paint.threshold));
-                    // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance s^2/12.
-                    const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), t.lost_variance,
-                                               hn::Set(d, paint.softness * paint.softness));
+                    // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance
+                    // s^2/12.
+                    const V ramp2 =
+                        hn::MulAdd(hn::Set(d, 12.0F), t.lost_variance, hn::Set(d, paint.softness * paint.softness));
                     const V edge = hn::Div(hn::Sub(t.value, threshold), hn::Sqrt(ramp2));
                     opacity = hn::Clamp(hn::Add(edge, half), zero, one);
                 }

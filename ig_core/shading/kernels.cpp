@@ -29,7 +29,7 @@ void TextureValues(const FrameTexture& texture, std::span<const float> x, std::s
         std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(i), left, pz);
         const Vec3<decltype(hn::Zero(d))> p{hn::Load(d, px), hn::Load(d, py), hn::Load(d, pz)};
         const auto none = hn::Zero(d);
-        hn::Store(texturing_function(d, texture, p, none, none).value, d, pt);
+        hn::Store(texturing_function<false>(d, texture, p, none, none).value, d, pt);
         std::copy_n(pt, left, t.begin() + static_cast<std::ptrdiff_t>(i));
     }
 }
@@ -87,8 +87,8 @@ void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> l
     std::uint32_t group = ~0U;
     float red = 0, green = 0, blue = 0;
     for (const PartialLayer& layer : layers) {
-        // Layers of one object lie side by side: what one of them leaves uncovered the next may fill, so both start from the
-        // light that reached the group. Otherwise the background would show along their common edge.
+        // Layers of one object lie side by side: what one of them leaves uncovered the next may fill, so both start
+        // from the light that reached the group. Otherwise the background would show along their common edge.
         if (layer.group != group) std::copy_n(through, kMaxCells, at_group);
         group = layer.group;
         cell_cover(*layer.span, column, sub_lines, cover);
@@ -123,7 +123,8 @@ void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgb
         const auto g = srgb8(d, hn::LoadU(d, row.green.data() + i));
         const auto b = srgb8(d, hn::LoadU(d, row.blue.data() + i));
         const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
-        const auto packed = hn::Or(rg, hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xFF000000U))));
+        const auto packed =
+            hn::Or(rg, hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xFF000000U))));
         if (i + n <= total) {
             hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
         } else {

@@ -29,7 +29,8 @@ SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
     return {sum.z * share, sum.from * share, sum.to * share};
 }
 
-void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step, ShadeInput& in) {
+void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step,
+                 ShadeInput& in) {
     const EyeSolid& e = span.surface.outline->solid;
     const Solid& solid = (*frame.solids)[span.surface.outline->object];
     const double zeta = z - e.z0;
@@ -68,7 +69,9 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
     in.ray_step = to_float(scene_from_eye[0] * row.column_step);
     in.along_row = to_float(scene_from_eye[2] * frame.view->image.row_step);
     switch (surface.kind) {
-        case Surface::Kind::sky: in.kind = ShadeInput::Kind::sky; return in;
+        case Surface::Kind::sky:
+            in.kind = ShadeInput::Kind::sky;
+            return in;
         case Surface::Kind::quadric:
             set_quadric(frame, span, x, range.z, row.column_step, in);
             in.paint = &frame.paints->objects[surface.outline->object];
@@ -135,7 +138,8 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
         };
         if (!run.partial) {
             samples_.clear();
-            for (std::uint32_t i = 0; i < run.layer_count; ++i) samples_.push_back(sample(run.first_layer + i, run.from));
+            for (std::uint32_t i = 0; i < run.layer_count; ++i)
+                samples_.push_back(sample(run.first_layer + i, run.from));
             composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
             continue;
         }

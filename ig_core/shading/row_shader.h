@@ -1,4 +1,5 @@
-/// From visible runs to pixels: each surface is shaded once per pixel it shows in, then layers are laid over one another.
+/// From visible runs to pixels: each surface is shaded once per pixel it shows in, then layers are laid over one
+/// another.
 #pragma once
 
 #include <span>

@@ -9,20 +9,22 @@
 
 namespace quadrig {
 
-/// Shades one job (image model: Eq 15, light, limb function, translucence, haze) into buffer[offset...], planar linear light.
-/// Writes up to kShadePadding samples past the end.
+/// Shades one job (image model: Eq 15, light, limb function, translucence, haze) into buffer[offset...], planar linear
+/// light. Writes up to kShadePadding samples past the end.
 void shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset);
 
-/// Evaluates the texturing function without filtering at scene points given relative to the eye, as shading does: for tests.
+/// Evaluates the texturing function without filtering at scene points given relative to the eye, as shading does: for
+/// tests.
 void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                     std::span<const float> z, std::span<float> t);
 
-/// Lays a whole run's layers over one another, front to back: samples[i] is where layer i's first column stands in `buffer`.
+/// Lays a whole run's layers over one another, front to back: samples[i] is where layer i's first column stands in
+/// `buffer`.
 void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> samples, int count, ShadeBuffer& row,
                      std::size_t column);
 
-/// A layer of a pixel that it covers in part: its sample, and the share of each cell that it covers. A cell is a quarter of a
-/// sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object).
+/// A layer of a pixel that it covers in part: its sample, and the share of each cell that it covers. A cell is a
+/// quarter of a sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object).
 inline constexpr int kCellsPerLine = 4;
 inline constexpr int kMaxCells = kCellsPerLine * kMaxSubScanLines;
 struct PartialLayer {

@@ -10,12 +10,12 @@
 
 namespace quadrig {
 
-/// A texture as one frame sees it. Phases are in turns and measured from the eye: the scene-sized part of w X + p is reduced in
-/// double, so that the float part stays small wherever the texture is not yet filtered away.
+/// A texture as one frame sees it. Phases are in turns and measured from the eye: the scene-sized part of w X + p is
+/// reduced in double, so that the float part stays small wherever the texture is not yet filtered away.
 struct FrameTexture {
     struct Term {
-        float weight;          ///< C_i / sum C
-        float turns_per_metre; ///< w_i / 2 pi
+        float weight;                                    ///< C_i / sum C
+        float turns_per_metre;                           ///< w_i / 2 pi
         float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
     };
     std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
@@ -56,7 +56,7 @@ struct ShadeInput {
     float least_column = 0, most_column = 0;  ///< sample points stay within the surface
     // Ray direction in scene axes and its parts: d = ray + column * ray_step; along_row the step to the next row.
     std::array<float, 3> ray{}, ray_step{}, along_row{};
-    std::array<float, 3> normal{};  ///< planes: unit, outward
+    std::array<float, 3> normal{};        ///< planes: unit, outward
     float plane_u = 0, plane_u_step = 0;  ///< planes: 1/k
     // Quadrics: xi = xi + column * xi_step; A, B, L as polynomials in xi; C.
     float xi = 0, xi_step = 0, c = 0;

@@ -18,7 +18,9 @@ constexpr int kMaxSplits = 8;
 class Crossings {
   public:
     Crossings(const RowSpan& a, const RowSpan& b, const PixelRow& row, double z)
-        : a_(a.surface, row, z), b_(b.surface, row, z), points_(row.point_samples),
+        : a_(a.surface, row, z),
+          b_(b.surface, row, z),
+          points_(row.point_samples),
           a_wins_ties_(a.surface.priority < b.surface.priority) {}
 
     void search(double from, double to) {
@@ -85,8 +87,8 @@ class Crossings {
     bool points_, a_wins_ties_;
 };
 
-/// Most pairs lie clear of one another: bounds of 1/k on the first and last sub-scan line settle them. (What the lines between
-/// could add is less than a sub-scan line high.) The surface that spans more depth is bounded first.
+/// Most pairs lie clear of one another: bounds of 1/k on the first and last sub-scan line settle them. (What the lines
+/// between could add is less than a sub-scan line high.) The surface that spans more depth is bounded first.
 std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
     const auto spread = [](const Surface& s) { return s.near_u - s.far_u; };
     const bool a_first = spread(a.surface) >= spread(b.surface);
@@ -173,7 +175,8 @@ Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, Cr
     if (!behind) return Priority::front;
     if (!front || a.splits >= kMaxSplits) return Priority::behind;
     for (std::size_t line = 0; line < lines; ++line)
-        if (apart[line] && a.from[line] < a.to[line]) put(pieces[*first_in_front ? 0 : 1], a, line, a.from[line], a.to[line]);
+        if (apart[line] && a.from[line] < a.to[line])
+            put(pieces[*first_in_front ? 0 : 1], a, line, a.from[line], a.to[line]);
     return Priority::crossing;
 }
 

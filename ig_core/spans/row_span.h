@@ -1,8 +1,8 @@
-/// The span: part of a pixel row on which one surface may be seen. The narrow waist of the image generator: everything that draws
-/// makes spans, and everything after the sweep sees nothing else.
+/// The span: part of a pixel row on which one surface may be seen. The narrow waist of the image generator: everything
+/// that draws makes spans, and everything after the sweep sees nothing else.
 ///
-/// A pixel row is sampled on a few sub-scan lines. A span knows its exact ends on each of them, in columns (column c of the image
-/// covers c to c+1); it covers a pixel by as much as its sub-scan lines do.
+/// A pixel row is sampled on a few sub-scan lines. A span knows its exact ends on each of them, in columns (column c of
+/// the image covers c to c+1); it covers a pixel by as much as its sub-scan lines do.
 #pragma once
 
 #include <array>
@@ -47,14 +47,14 @@ struct PixelRow {
     int sub_lines = 1;
     bool point_samples = false;  ///< a column counts as covered if its centre is: for ids and depth
     int columns = 0;
-    double left = 0, column_step = 1;             ///< x = left + column * column_step
-    std::array<double, kMaxSubScanLines> z{};     ///< image-plane z of each sub-scan line
+    double left = 0, column_step = 1;          ///< x = left + column * column_step
+    std::array<double, kMaxSubScanLines> z{};  ///< image-plane z of each sub-scan line
     [[nodiscard]] double x(double column) const { return left + column * column_step; }
     [[nodiscard]] double column(double at_x) const { return (at_x - left) / column_step; }
 };
 
-/// 1/k of a surface along one scan line as a function of the column. On every convex object it is concave, which is what the
-/// ordering of spans rests on: a chord lies below it, a tangent above.
+/// 1/k of a surface along one scan line as a function of the column. On every convex object it is concave, which is
+/// what the ordering of spans rests on: a chord lies below it, a tangent above.
 class DepthOnLine {
   public:
     DepthOnLine(const Surface& surface, const PixelRow& row, double z);
@@ -72,10 +72,10 @@ class DepthOnLine {
 
   private:
     bool plane_;
-    double u0_ = 0, u1_ = 0;           // plane: u0 + u1 column
-    double xi0_ = 0, step_ = 1;        // quadric: xi = xi0 + step column
-    double b0_ = 0, b1_ = 0, s_ = 1;   // B = b0 + b1 xi, C = s
-    double a_[3] = {}, d_[3] = {};     // A and the limb form as polynomials in xi
+    double u0_ = 0, u1_ = 0;          // plane: u0 + u1 column
+    double xi0_ = 0, step_ = 1;       // quadric: xi = xi0 + step column
+    double b0_ = 0, b1_ = 0, s_ = 1;  // B = b0 + b1 xi, C = s
+    double a_[3] = {}, d_[3] = {};    // A and the limb form as polynomials in xi
 };
 
 }  // namespace quadrig

@@ -23,9 +23,12 @@ void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>
         const double slope = surface.plane.along_x;
         const double horizon = row.column(-at / slope);
         double from = 0.0, to = row.columns;
-        if (slope > 0.0) from = std::max(from, horizon);
-        else if (slope < 0.0) to = std::min(to, horizon);
-        else if (!(at > 0.0)) to = from;
+        if (slope > 0.0)
+            from = std::max(from, horizon);
+        else if (slope < 0.0)
+            to = std::min(to, horizon);
+        else if (!(at > 0.0))
+            to = from;
         span.from[i] = from, span.to[i] = std::max(from, to);
     }
     if (!fit_columns(row, span)) spans.pop_back();
@@ -63,7 +66,8 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
     return span.outer_from < span.outer_to;
 }
 
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, std::vector<RowSpan>& spans) {
+void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
+                      std::vector<RowSpan>& spans) {
     const auto surface_of = [&](int surface) {
         return Surface{surface == 0 ? Surface::Kind::quadric : Surface::Kind::face,
                        opaque,
@@ -84,8 +88,10 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
             span.from[i] = (span.from[i] - row.left) * scale;
             span.to[i] = (span.to[i] - row.left) * scale;
         }
-        if (fit_columns(row, span)) span.surface = surface_of(0);
-        else spans.pop_back();
+        if (fit_columns(row, span))
+            span.surface = surface_of(0);
+        else
+            spans.pop_back();
         return;
     }
     const double scale = 1.0 / row.column_step;

@@ -16,7 +16,8 @@ struct PlaneSurfaces {
 };
 
 /// Appends the spans of one object to `spans`. `opaque` is false for an object with holes.
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, std::vector<RowSpan>& spans);
+void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
+                      std::vector<RowSpan>& spans);
 
 /// Appends the spans of ground and cloud decks, and the sky behind everything.
 void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,

@@ -67,7 +67,8 @@ void RowSweep::emit(int from, int to) {
     if (!runs.empty()) {
         LayerRun& last = runs.back();
         if (last.to == from && last.layer_count == count && last.partial == partial &&
-            std::equal(layers.begin() + last.first_layer, layers.begin() + last.first_layer + count, layers.begin() + first)) {
+            std::equal(layers.begin() + last.first_layer, layers.begin() + last.first_layer + count,
+                       layers.begin() + first)) {
             last.to = to;
             layers.resize(first);
             return;

@@ -75,6 +75,15 @@ Pcap open(const std::filesystem::path& path) {
     return pcap;
 }
 
+// With nanosecond precision libpcap puts nanoseconds into tv_usec. A damaged pcapng file may hold any 64 bits as its
+// time.
+Time capture_time(const timeval& stamp) {
+    constexpr std::int64_t kLatest = std::int64_t{1} << 32;
+    const auto seconds = std::clamp<std::int64_t>(stamp.tv_sec, 0, kLatest);
+    const auto nanoseconds = std::clamp<std::int64_t>(stamp.tv_usec, 0, 999'999'999);
+    return std::chrono::seconds(seconds) + std::chrono::nanoseconds(nanoseconds);
+}
+
 void add(Read& read, Time captured, const UdpDatagram& datagram) {
     FlowCount& flow = read.flows
                           .try_emplace({datagram.source, datagram.destination, datagram.destination_port},
@@ -97,8 +106,7 @@ Read read_all(const std::filesystem::path& path) {
     int status = 0;
     while ((status = pcap_next_ex(pcap.get(), &header, &data)) == 1) {
         ++counts.packets;
-        // With nanosecond precision libpcap puts nanoseconds into tv_usec.
-        const Time captured = std::chrono::seconds(header->ts.tv_sec) + std::chrono::nanoseconds(header->ts.tv_usec);
+        const Time captured = capture_time(header->ts);
         const auto result = udp_datagram(pcap_datalink(pcap.get()), std::as_bytes(std::span(data, header->caplen)));
         if (const auto* datagram = std::get_if<UdpDatagram>(&result)) {
             add(read, captured, *datagram);

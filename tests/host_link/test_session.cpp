@@ -22,6 +22,11 @@ void* operator new(std::size_t size) {
     if (void* p = std::malloc(size)) return p;
     throw std::bad_alloc();
 }
+// The sanitizer's own one would not come through here, and its blocks would.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    if (counting_allocations) ++allocations;
+    return std::malloc(size);
+}
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 

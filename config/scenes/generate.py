@@ -126,9 +126,9 @@ TURN_HEADER = """
 name = "turn"
 origin = { latitude = 47.25, longitude = 122.07, altitude = 200.0 }
 [sun]
-azimuth = 150.0
-elevation = 38.0
-ambient = 0.35
+azimuth = 235.0
+elevation = 42.0
+ambient = 0.38
 [sky]
 horizon = [0.55, 0.70, 0.86]
 zenith = [0.07, 0.19, 0.52]

@@ -8,7 +8,7 @@ import math
 import pathlib
 import random
 
-from landscape import Range, cloud, number, numbers, paint, perturbed, ellipsoid, scene, scene_object, texture, tree
+from landscape import Range, cloud, ellipsoid, paint, perturbed, scene, scene_object, texture, tree
 from village import village
 
 # Where the Cessna's eye goes, east and north of the origin: round on the ground, off, and climbing to 95 m.

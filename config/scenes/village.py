@@ -3,7 +3,7 @@
 import math
 import random
 
-from landscape import numbers, paint, perturbed, scene, scene_object, texture
+from landscape import paint, perturbed, scene, scene_object, texture
 
 HEADER = """
 # A village of boxes, cut spheres, cones and cylinders, all opaque: a test bed for geometry. Written by generate.py; edit that.

@@ -10,6 +10,8 @@ namespace {
 
 /// Crossings are found to this many columns, and none is looked for so close to a span's end.
 constexpr double kCrossingWidth = 1.0 / 16.0;
+/// An overlap narrower than this (columns) is rounding where two spans abut: it has no order.
+constexpr double kLeastOverlap = 1.0 / 512.0;
 /// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
 constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
 constexpr int kMaxSplits = 8;
@@ -101,7 +103,7 @@ std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b
         least = std::numeric_limits<double>::infinity(), most = -least;
         for (std::size_t line = 0; line < lines; line += std::max<std::size_t>(1, lines - 1)) {
             const double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
-            if (!(from < to)) continue;
+            if (!(to - from > kLeastOverlap)) continue;
             const auto bounds = DepthOnLine(span.surface, row, row.z[line]).between(from, to);
             least = std::min(least, bounds.least), most = std::max(most, bounds.most);
             any = true;
@@ -148,14 +150,16 @@ Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, Cr
     std::array<bool, kMaxSubScanLines> apart{};
     for (std::size_t line = 0; line < lines; ++line) {
         double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
+        apart[line] = !(to - from > (row.point_samples ? 0.0 : kLeastOverlap));
+        if (apart[line]) continue;
         if (row.point_samples) {
             from = std::ceil(from - 0.5) + 0.5, to = std::ceil(to - 0.5) - 0.5;
+            apart[line] = !(from <= to);
+            if (apart[line]) continue;
         } else {
             const double inset = std::min(2.0 * kCrossingWidth, 0.25 * (to - from));
             from += inset, to -= inset;
         }
-        apart[line] = !(row.point_samples ? from <= to : from < to);
-        if (apart[line]) continue;
         Crossings crossings(a, b, row, row.z[line]);
         crossings.search(from, to);
         if (a.splits >= kMaxSplits) crossings.count = 0;

@@ -43,7 +43,7 @@ Result udp(Bytes segment, const IpAddress& source, const IpAddress& destination)
 
 Result ipv4(Bytes packet) {
     if (packet.size() < kIpv4Header) return NotUdp::damaged;
-    const std::size_t header = (u8(packet, 0) & 0x0FU) * 4U;
+    const std::size_t header = std::size_t{4} * (u8(packet, 0) & 0x0FU);
     if (header < kIpv4Header || header > packet.size()) return NotUdp::damaged;
     if (u8(packet, 9) != kUdp) return NotUdp::other_protocol;
     if ((u16(packet, 6) & 0x3FFFU) != 0) return NotUdp::fragment;
@@ -64,7 +64,7 @@ Result ipv6(Bytes packet) {
     if (length != 0) body = body.first(std::min(length, body.size()));
     while (next == kHopByHop || next == kRouting || next == kDestinationOptions) {
         if (body.size() < 8) return NotUdp::damaged;
-        const std::size_t size = (u8(body, 1) + 1U) * 8U;
+        const std::size_t size = std::size_t{8} * (u8(body, 1) + 1U);
         if (size > body.size()) return NotUdp::damaged;
         next = u8(body, 0);
         body = body.subspan(size);

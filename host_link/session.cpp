@@ -1,7 +1,9 @@
 #include "host_link/session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <variant>
 
 namespace quadrig::host {
 

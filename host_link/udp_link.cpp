@@ -9,10 +9,13 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace quadrig::host {
 

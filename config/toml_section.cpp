@@ -162,6 +162,22 @@ std::optional<std::string> TomlSection::optional_text(std::string_view name) con
     return has(name) ? std::optional(text(name)) : std::nullopt;
 }
 
+std::vector<std::string> TomlSection::texts(std::string_view name) const {
+    if (!has(name)) return {};
+    const toml::array* array = required(name).as_array();
+    if (array == nullptr) refuse(required(name), key_of(name), "an array of strings");
+    std::vector<std::string> texts;
+    texts.reserve(array->size());
+    for (const toml::node& element : *array) {
+        const auto* text = element.as_string();
+        if (text == nullptr || text->get().empty()) {
+            refuse(element, with_index(key_of(name), texts.size()), "a string of at least one character");
+        }
+        texts.push_back(text->get());
+    }
+    return texts;
+}
+
 TomlSection TomlSection::table(std::string_view name, KnownKeys known) const {
     const toml::node& node = required(name);
     const toml::table* table = node.as_table();

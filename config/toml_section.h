@@ -54,6 +54,8 @@ class TomlSection {
     /// A string of at least one character.
     [[nodiscard]] std::string text(std::string_view name) const;
     [[nodiscard]] std::optional<std::string> optional_text(std::string_view name) const;
+    /// An array of strings of at least one character each, empty where the key is absent.
+    [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
     [[nodiscard]] TomlSection table(std::string_view name, KnownKeys known) const;
     [[nodiscard]] std::optional<TomlSection> optional_table(std::string_view name, KnownKeys known) const;
     /// An array of tables ([[name]]), empty where the key is absent.

@@ -35,6 +35,9 @@ class FrameWriter {
 /// What a sink URL may look like, for help texts and errors.
 inline constexpr std::string_view kSinkUrls = "png:DIRECTORY, y4m:FILE (y4m:- is standard output) or none:";
 
+/// Whether a URL has one of these forms; nothing is opened.
+bool is_sink_url(const std::string& url);
+
 /// Opens the writer that a URL names; null for `none:`. Throws std::runtime_error: a URL of another form (the message
 /// says which are accepted), a directory or file that cannot be made.
 std::unique_ptr<FrameWriter> open_writer(const std::string& url, const VideoFormat& format);

@@ -1,0 +1,44 @@
+#include "appliance/host_eye.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "frame_scheduler/host_view.h"
+#include "host_link/sun_position.h"
+
+namespace quadrig::appliance {
+
+std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time frame_time) {
+    const std::optional<ScenePose> body = smoother_.pose_at(state, frame_time);
+    if (!body) return std::nullopt;
+    const ImagePlane plane = surroundings_.ignore_host_window
+                                 ? surroundings_.channel
+                                 : scheduler::host_image_plane(state.window, surroundings_.channel);
+    return scheduler::host_view(*body, state.mount, plane);
+}
+
+Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed) const {
+    Environment environment;
+    environment.seconds = std::chrono::duration<double>(elapsed).count();
+    environment.visibility = state.visibility;
+    if (state.utc) {
+        const host::SunPosition sun = host::sun_position(*state.utc, surroundings_.origin);
+        environment.sun = Sun{sun.azimuth, sun.elevation, surroundings_.sun.ambient};
+    }
+    return environment;
+}
+
+std::optional<scheduler::Time> HostEye::fresh_arrival(const host::HostState& state) {
+    if (!state.pose || state.pose->sequence == shown_) return std::nullopt;
+    shown_ = state.pose->sequence;
+    return state.pose->arrival;
+}
+
+host::ViewWindow window_of(const ImagePlane& plane) {
+    const auto angle = [](double tangent) { return Degrees::from_radians(std::atan(tangent)); };
+    return {angle(plane.left), angle(plane.x(plane.width)), angle(plane.top), angle(plane.z(plane.height))};
+}
+
+View standby_view(const ImagePlane& plane) { return {{{0.0, 0.0, 2.0}}, eye_from_scene_rotation({}), plane}; }
+
+}  // namespace quadrig::appliance

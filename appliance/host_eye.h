@@ -1,0 +1,47 @@
+/// What one host's words come to: the eye, and the light and air about it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "frame_scheduler/frame_clock.h"
+#include "frame_scheduler/motion.h"
+#include "host_link/host_state.h"
+#include "host_link/session.h"
+#include "ig_core/view.h"
+
+namespace quadrig::appliance {
+
+/// Follows one host, frame by frame.
+class HostEye {
+  public:
+    /// What is drawn where the host says nothing else: the channel's own window, the scene's own light and origin.
+    struct Surroundings {
+        ImagePlane channel;
+        bool ignore_host_window = false;
+        GeodeticPosition origin;
+        Sun sun;
+    };
+    explicit HostEye(const Surroundings& surroundings) : surroundings_(surroundings) {}
+
+    /// The view for a frame due at `frame_time`, by the clock of the state's arrivals. To be called once a frame with
+    /// the state latched for it. Nothing before the host's first pose.
+    std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
+    /// `elapsed`: the scene's time.
+    [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed) const;
+    /// When the newest pose came in, where no frame before has asked for it.
+    std::optional<scheduler::Time> fresh_arrival(const host::HostState& state);
+
+  private:
+    Surroundings surroundings_;
+    scheduler::MotionSmoother smoother_;
+    std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
+};
+
+/// Half angles of an image plane, which a host's incomplete View Definition is filled up from.
+host::ViewWindow window_of(const ImagePlane& plane);
+
+/// Where the eye stands until a host says otherwise: 2 m above the scene's origin, looking north.
+View standby_view(const ImagePlane& plane);
+
+}  // namespace quadrig::appliance

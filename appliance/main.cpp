@@ -1,0 +1,72 @@
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "appliance/commands.h"
+
+namespace {
+
+using namespace quadrig::appliance;
+
+enum ExitStatus { kDone = 0, kFailed = 1, kWrongUse = 2 };
+
+int complain(const std::string& what, ExitStatus status) {
+    std::cerr << "quadrig: " << what << '\n';
+    return status;
+}
+
+int wrong_use(const CLI::App& program, const std::string& what) {
+    const auto chosen = program.get_subcommands();
+    const std::string command = chosen.empty() ? "quadrig" : "quadrig " + chosen.front()->get_name();
+    return complain(what + "\nSee '" + command + " --help'.", kWrongUse);
+}
+
+/// CLI11 complains of what is missing before what is unknown, which is more often the reason.
+std::string reason(const CLI::App& program, const CLI::ParseError& error) {
+    const auto unknown = program.remaining(true);
+    return unknown.empty() ? error.what() : "unknown option or argument: " + unknown.front();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A reader that goes away is an error of the write, not the end of the program.
+    std::signal(SIGPIPE, SIG_IGN);
+
+    CLI::App program("Quadrig: an image generator that a flight simulator's host drives over the network.", "quadrig");
+    program.set_version_flag("--version", "quadrig " QUADRIG_VERSION, "Say which version this is, and stop");
+    program.set_help_flag("-h,--help", "Say what there is to ask for, and stop");
+    program.footer(
+        "'quadrig COMMAND --help' explains a command and gives examples; appliance/README.md tells all of them.\n"
+        "Exit status: 0 done, 1 failed, 2 wrong use. Diagnostics and reports go to standard error.\n\n"
+        "To begin with:\n"
+        "  quadrig render config/scenes/one_tree.toml --eye 0,0,8 --attitude 0,0,0 --size 640x480 --fov 60 -o "
+        "tree.png");
+    program.require_subcommand(1);
+    program.get_formatter()->column_width(34);
+
+    Action action;
+    add_render(program, action);
+    add_replay(program, action);
+    add_run(program, action);
+    add_bench(program, action);
+    add_check(program, action);
+    try {
+        program.parse(argc, argv);
+        action();
+        std::cout.flush();
+        return std::cout ? kDone : complain("standard output cannot be written to", kFailed);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        return wrong_use(program, reason(program, error));
+    } catch (const WrongUse& error) {
+        return wrong_use(program, error.what());
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory for this", kFailed);
+    } catch (const std::exception& error) {
+        return complain(error.what(), kFailed);
+    }
+}

@@ -1,0 +1,98 @@
+#include "appliance/option_values.h"
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "display/frame_writer.h"
+
+namespace quadrig::appliance {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& expected) {
+    throw CLI::ValidationError("'" + text + "'", "expected " + expected);
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+double number_in(const std::string& text, const std::string& expected, bool (*holds)(double)) {
+    const auto number = parse<double>(text);
+    if (!number || !std::isfinite(*number) || !holds(*number)) refuse(text, expected);
+    return *number;
+}
+
+}  // namespace
+
+glm::dvec3 read_triple(const std::string& text) {
+    const auto fail = [&] { refuse(text, "three numbers with commas between them and no blanks, such as 3,0,-8"); };
+    const std::size_t first = text.find(','), last = text.rfind(',');
+    if (first == last) fail();
+    const std::string_view all(text);
+    glm::dvec3 values;
+    glm::length_t axis = 0;
+    for (const std::string_view part :
+         {all.substr(0, first), all.substr(first + 1, last - first - 1), all.substr(last + 1)}) {
+        const auto value = parse<double>(part);
+        if (!value || !(std::abs(*value) <= 1e9)) fail();
+        values[axis++] = *value;
+    }
+    return values;
+}
+
+config::ImageSize read_size(const std::string& text) {
+    const std::string_view all(text);
+    const std::size_t cross = std::min(all.find('x'), all.size() - 1);
+    const auto width = parse<int>(all.substr(0, cross)), height = parse<int>(all.substr(cross + 1));
+    const auto fits = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= config::kLargestImage; };
+    if (!fits(width) || !fits(height))
+        refuse(text, "WIDTHxHEIGHT, such as 1280x720, each in 1.." + std::to_string(config::kLargestImage));
+    return {*width, *height};
+}
+
+Degrees read_field_of_view(const std::string& text) {
+    return {number_in(text, "degrees above 0 and below 180", [](double x) { return x > 0.0 && x < 180.0; })};
+}
+
+scheduler::FrameRate read_rate(const std::string& text) {
+    return *scheduler::frame_rate(
+        number_in(text, "hertz in 1..1000", [](double x) { return scheduler::frame_rate(x).has_value(); }));
+}
+
+scheduler::Time read_duration(const std::string& text) {
+    const double seconds =
+        number_in(text, "seconds above 0 and at most 1e8", [](double x) { return x > 0.0 && x <= 1e8; });
+    return std::chrono::round<scheduler::Time>(std::chrono::duration<double>(seconds));
+}
+
+double read_number(const std::string& text) {
+    return number_in(text, "a number", [](double) { return true; });
+}
+
+config::QualityPreset read_quality(const std::string& text) {
+    const auto preset = config::quality_preset(text);
+    if (!preset) refuse(text, std::string(config::kQualityNames));
+    return *preset;
+}
+
+host::LinkUrl read_link(const std::string& text) {
+    try {
+        return host::parse_link_url(text);
+    } catch (const host::LinkUrlError& error) {
+        throw CLI::ValidationError("--link", error.what());
+    }
+}
+
+std::string read_sink(const std::string& text) {
+    if (!display::is_sink_url(text)) refuse(text, "a sink: " + std::string(display::kSinkUrls));
+    return text;
+}
+
+}  // namespace quadrig::appliance

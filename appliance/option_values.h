@@ -1,0 +1,57 @@
+/// Values of options as they are written on the command line. What cannot be read is a CLI::ValidationError, which says
+/// what can.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "config/appliance_file.h"
+#include "config/quality_preset.h"
+#include "frame_scheduler/frame_clock.h"
+#include "host_link/link_url.h"
+#include "ig_core/geometry/space.h"
+
+namespace quadrig::appliance {
+
+/// "3,0,-8": three finite numbers.
+glm::dvec3 read_triple(const std::string& text);
+/// "1280x720"
+config::ImageSize read_size(const std::string& text);
+/// Degrees above 0 and below 180.
+Degrees read_field_of_view(const std::string& text);
+/// Hertz, 1..1000.
+scheduler::FrameRate read_rate(const std::string& text);
+/// Seconds above 0, at most 1e8.
+scheduler::Time read_duration(const std::string& text);
+/// A finite number.
+double read_number(const std::string& text);
+config::QualityPreset read_quality(const std::string& text);
+host::LinkUrl read_link(const std::string& text);
+std::string read_sink(const std::string& text);
+
+/// Adds an option whose text `read` turns into `target`. A list takes one value each time the option is given.
+template <class Value, class Target>
+CLI::Option* add_option(CLI::App& command, const std::string& names, Target& target, Value (*read)(const std::string&),
+                        const std::string& description, const std::string& value_name) {
+    return command
+        .add_option_function<std::string>(
+            names, [&target, read](const std::string& text) { target = read(text); }, description)
+        ->option_text(value_name);
+}
+template <class Value>
+CLI::Option* add_list_option(CLI::App& command, const std::string& names, std::vector<Value>& target,
+                             Value (*read)(const std::string&), const std::string& description,
+                             const std::string& value_name) {
+    return command
+        .add_option_function<std::vector<std::string>>(
+            names,
+            [&target, read](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) target.push_back(read(text));
+            },
+            description)
+        ->allow_extra_args(false)
+        ->option_text(value_name);
+}
+
+}  // namespace quadrig::appliance

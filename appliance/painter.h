@@ -1,0 +1,36 @@
+/// The picture of a run: the image generator draws into the video channel's frame buffer, the overlay goes on top.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "appliance/run_options.h"
+#include "display/channel.h"
+#include "display/overlay.h"
+#include "ig_core/image_generator.h"
+
+namespace quadrig::appliance {
+
+class Painter {
+  public:
+    Painter(Scene scene, const PictureSettings& settings);
+
+    /// Leaves a whole picture in image(). Allocates nothing after the first frames. The stage `present` is the overlay.
+    StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number);
+    /// Draws a view as often as it takes for memory to be there.
+    void warm_up(const View& view);
+
+    [[nodiscard]] FrameImage image() const { return channel_.image(); }
+    [[nodiscard]] const Scene& scene() const { return generator_.scene(); }
+    [[nodiscard]] const PictureSettings& settings() const { return settings_; }
+    /// The channel's own window, by its size and field of view.
+    [[nodiscard]] ImagePlane image_plane() const;
+
+  private:
+    PictureSettings settings_;
+    std::optional<display::Overlay> overlay_;
+    display::Channel channel_;
+    ImageGenerator generator_;
+};
+
+}  // namespace quadrig::appliance

@@ -1,0 +1,36 @@
+#include "appliance/playback.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace quadrig::appliance {
+
+Playback::Playback(const host::Capture& capture, const host::SessionOptions& options)
+    : capture_(capture), session_(options) {
+    bool found = false;
+    while (!found && next_ < capture.datagrams.size()) {
+        begin_ = end_ = capture.datagrams[next_].captured;
+        found = play_next() == host::Verdict::pose;
+    }
+    if (!found) {
+        std::string reasons;
+        for (const auto& [reason, count] : host::rejected_by_reason(session_.statistics()))
+            reasons += (reasons.empty() ? "; refused: " : ", ") + std::string(reason) + " " + std::to_string(count);
+        throw std::runtime_error("no pose of the ownship in " + std::to_string(capture.datagrams.size()) +
+                                 " datagrams of " + text(capture.flow) + reasons);
+    }
+    for (std::size_t i = next_; i < capture.datagrams.size(); ++i) end_ = std::max(end_, capture.datagrams[i].captured);
+}
+
+host::Verdict Playback::play_next() {
+    const host::Capture::Datagram& datagram = capture_.datagrams[next_++];
+    return session_.accept(capture_.payload(datagram), datagram.captured);
+}
+
+const host::HostState& Playback::state_at(host::Time time) {
+    while (next_ < capture_.datagrams.size() && capture_.datagrams[next_].captured <= time) play_next();
+    return session_.state();
+}
+
+}  // namespace quadrig::appliance

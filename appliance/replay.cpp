@@ -1,0 +1,146 @@
+/// `quadrig replay`: a recorded flight becomes pictures, the same ones every time.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "appliance/commands.h"
+#include "appliance/frame_run.h"
+#include "appliance/host_eye.h"
+#include "appliance/option_values.h"
+#include "appliance/outlets.h"
+#include "appliance/painter.h"
+#include "appliance/playback.h"
+#include "appliance/run_options.h"
+#include "appliance/run_report.h"
+#include "appliance/stop_signals.h"
+#include "config/scene_file.h"
+
+namespace quadrig::appliance {
+namespace {
+
+struct ReplayOptions : RunOptions {
+    std::filesystem::path recording, contact_sheet;
+    std::optional<host::LinkUrl> link;
+    bool fast = false;
+    bool fifo = false;
+};
+
+/// Until the recording ends, or as asked for. Capture times are only numbers in a file: without a limit, those that
+/// would run for days are refused.
+std::uint64_t frames_to_draw(const ReplayOptions& options, const scheduler::FrameRate& rate, const Playback& playback) {
+    using namespace std::chrono_literals;
+    const scheduler::Time length = playback.end() - playback.begin();
+    if (length > 24h && !options.frames && !options.duration)
+        throw std::runtime_error("by its own clock this recording lasts " +
+                                 std::to_string(std::chrono::duration_cast<std::chrono::hours>(length).count()) +
+                                 " hours; say how much of it with --frames or --seconds");
+    const std::uint64_t all = scheduler::first_frame_from(rate, length + 1ns);
+    const std::uint64_t wanted =
+        options.duration ? scheduler::first_frame_from(rate, *options.duration) : options.frames.value_or(all);
+    return std::min(all, wanted);
+}
+
+/// Frame k shows the flight at begin + k / rate of the recording's clock, whenever it is drawn.
+scheduler::FrameHooks hooks_for(Playback& playback, HostEye& eye, Painter& painter, Outlets& outlets) {
+    const scheduler::FrameRate rate = painter.settings().rate;
+    const auto draw = [&playback, &eye, &painter, rate,
+                       next = std::uint64_t{0}](const scheduler::FrameTick& tick) mutable {
+        // Frames left out for being late are latched all the same, so that the next one looks as it always does.
+        std::optional<View> view;
+        for (; next <= tick.number; ++next) {
+            const scheduler::Time time = playback.begin() + scheduler::frame_time(rate, next);
+            view = eye.view(playback.state_at(time), time);
+        }
+        scheduler::DrawnFrame drawn;
+        drawn.stages = painter.paint(*view, eye.environment(playback.state(), tick.elapsed), tick.number);
+        if (const auto arrival = eye.fresh_arrival(playback.state()))
+            drawn.input_age = playback.begin() + tick.elapsed + (tick.started - tick.due) - *arrival;
+        return drawn;
+    };
+    return {[&outlets] { return stop_requested() || outlets.has_error(); }, draw,
+            [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
+}
+
+void replay(const ReplayOptions& options) {
+    if (!options.settings.scene) throw WrongUse("--scene is missing: what is there to see?");
+    if (options.link && options.link->port)
+        throw WrongUse("link '" + options.link->text + "': a recording's is named without an address, cigi: or fdm:");
+    watch_stop_signals();
+    const PictureSettings settings = picture_settings(options.settings, options.overlay);
+    const host::Capture capture =
+        read_capture(options.recording, options.link ? std::optional(options.link->protocol) : std::nullopt);
+    if (capture.truncated)
+        std::cerr << "quadrig: " << options.recording.string() << ": ends early (" << *capture.truncated
+                  << "); played up to there\n";
+    Painter painter(config::read_scene(*options.settings.scene), settings);
+    const Scene& scene = painter.scene();
+    const host::LinkUrl link =
+        options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
+    host::SessionOptions session = session_options(link, scene.origin);
+    session.default_window = window_of(painter.image_plane());
+    Playback playback(capture, session);
+    HostEye eye({painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
+
+    const std::uint64_t frames = frames_to_draw(options, settings.rate, playback);
+    const bool wait_for_sinks = options.fast;
+    Outlets outlets({options.settings.sinks,
+                     {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
+                     wait_for_sinks ? display::WhenFull::wait : display::WhenFull::drop,
+                     stop_requested,
+                     frames,
+                     options.contact_sheet});
+    painter.warm_up(standby_view(painter.image_plane()));
+    const scheduler::FrameHooks hooks = hooks_for(playback, eye, painter, outlets);
+    scheduler::FrameReport report = report_about(painter);
+    scheduler::FrameRecord record;
+    // Frames are counted by their numbers, so that one left out for being late is not drawn after the end.
+    const RunLength length{std::nullopt, scheduler::frame_time(settings.rate, frames)};
+    if (options.fast)
+        run_as_fast_as_possible(settings.rate, length, hooks, record);
+    else
+        run_in_real_time(settings.rate, length, options.fifo, hooks, record, report);
+
+    if (!options.frames && !options.duration && !stop_requested()) playback.state_at(playback.end());
+    nlohmann::ordered_json told = link_report(link.text, playback.statistics());
+    told["recording"] = options.recording.string();
+    told["flow"] = text(capture.flow);
+    if (capture.truncated) told["truncated"] = *capture.truncated;
+    report.links.push_back(std::move(told));
+    finish_report(report, record, painter, outlets, options.report);
+}
+
+constexpr const char* kNotes =
+    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP. Of its flows the one with the most\n"
+    "host's datagrams is played. Frame k shows the flight k/HZ seconds after its first pose, smoothed between the\n"
+    "host's samples: in real time and with --fast, with any number of threads, frame k is the same picture. In real\n"
+    "time a frame that is late is left out, and the one before it held; the report counts them.\n\n"
+    "Examples:\n"
+    "  quadrig replay config/traces/netfdm-c172-takeoff.pcap --scene config/scenes/takeoff.toml --fast \\\n"
+    "      --sink y4m:takeoff.y4m --contact-sheet takeoff.png --report takeoff.json\n"
+    "  quadrig replay config/traces/cigi33-737-turn.pcapng --scene config/scenes/turn.toml --rate 30 --overlay \\\n"
+    "      --sink y4m:- | mpv -";
+
+}  // namespace
+
+void add_replay(CLI::App& program, Action& action) {
+    CLI::App& command = *program.add_subcommand("replay", "Play a recorded flight through the image generator");
+    const auto options = std::make_shared<ReplayOptions>();
+    command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
+    add_option(
+        command, "--link", options->link, read_link,
+        "The recording's protocol, cigi: or fdm:, with options such as\ncigi:?ownship=3 (default: what it holds)",
+        "URL");
+    add_host_options(command, *options);
+    add_picture_options(command, *options);
+    auto* fast = command.add_flag("--fast", options->fast,
+                                  "As fast as frames can be drawn, and sinks take them: none is left out");
+    command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)")
+        ->excludes(fast);
+    command.add_option("--contact-sheet", options->contact_sheet, "Write a page of 16 evenly spaced frames")
+        ->option_text("FILE.png");
+    command.footer(kNotes);
+    command.callback([options, &action] { action = [options] { replay(*options); }; });
+}
+
+}  // namespace quadrig::appliance

@@ -1,0 +1,167 @@
+/// `quadrig run`: live, driven by hosts over the network.
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "appliance/commands.h"
+#include "appliance/frame_run.h"
+#include "appliance/host_eye.h"
+#include "appliance/option_values.h"
+#include "appliance/outlets.h"
+#include "appliance/painter.h"
+#include "appliance/run_options.h"
+#include "appliance/run_report.h"
+#include "appliance/stop_signals.h"
+#include "config/scene_file.h"
+#include "display/frame_writer.h"
+#include "host_link/udp_link.h"
+
+namespace quadrig::appliance {
+namespace {
+
+struct LiveOptions : RunOptions {
+    std::filesystem::path appliance;
+    bool fifo = false;
+};
+
+/// A link, and what is known of the host at its other end.
+struct LiveHost {
+    explicit LiveHost(const host::LinkUrl& url) : link(url) {}
+    host::UdpLink link;
+    host::HostState state;
+    std::optional<HostEye> eye;
+    std::optional<View> view;
+};
+using LiveHosts = std::vector<std::unique_ptr<LiveHost>>;
+
+/// Of several hosts the first in the order given that has a pose and was heard of lately; the others stand by.
+LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
+    constexpr std::chrono::seconds kSilence{1};
+    LiveHost* latest = nullptr;
+    for (const auto& host : hosts) {
+        if (!host->view || !host->state.newest_arrival) continue;
+        if (now - *host->state.newest_arrival < kSilence) return host.get();
+        if (!latest || *host->state.newest_arrival > *latest->state.newest_arrival) latest = host.get();
+    }
+    return latest;
+}
+
+scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets) {
+    const auto draw = [&hosts, &painter,
+                       standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
+        for (const auto& host : hosts) {
+            host->link.take_newest(host->state);
+            host->link.send_start_of_frame(static_cast<std::uint32_t>(tick.number), tick.started);
+            host->view = host->eye->view(host->state, tick.due);
+        }
+        scheduler::DrawnFrame drawn;
+        LiveHost* host = driving_host(hosts, tick.started);
+        if (!host) {
+            Environment environment;
+            environment.seconds = std::chrono::duration<double>(tick.elapsed).count();
+            drawn.stages = painter.paint(standby, environment, tick.number);
+            return drawn;
+        }
+        drawn.stages = painter.paint(*host->view, host->eye->environment(host->state, tick.elapsed), tick.number);
+        if (const auto arrival = host->eye->fresh_arrival(host->state)) drawn.input_age = tick.started - *arrival;
+        return drawn;
+    };
+    return {stop_requested, draw,
+            [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
+}
+
+LiveHosts listen(const std::vector<host::LinkUrl>& links) {
+    LiveHosts hosts;
+    for (const host::LinkUrl& url : links) {
+        hosts.push_back(std::make_unique<LiveHost>(url));
+        std::cerr << "quadrig: " << url.text << " listens on port " << hosts.back()->link.port() << '\n';
+    }
+    return hosts;
+}
+
+config::ApplianceSettings settings_of(const LiveOptions& options) {
+    config::ApplianceSettings settings = options.settings;
+    if (!options.appliance.empty())
+        settings =
+            combined(settings, config::read_appliance(options.appliance, {display::kSinkUrls, display::is_sink_url}));
+    if (!settings.scene) throw WrongUse("--scene is missing: what is there to see?");
+    if (settings.links.empty())
+        throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
+    for (const host::LinkUrl& url : settings.links)
+        if (!url.port) throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT");
+    return settings;
+}
+
+void run(const LiveOptions& options) {
+    const config::ApplianceSettings given = settings_of(options);
+    const PictureSettings settings = picture_settings(given, options.overlay);
+    watch_stop_signals();
+    LiveHosts hosts = listen(given.links);
+    Painter painter(config::read_scene(*given.scene), settings);
+    const Scene& scene = painter.scene();
+
+    RunLength length{options.frames, options.duration};
+    std::optional<std::uint64_t> most_frames = length.frames;
+    if (length.duration) most_frames = scheduler::first_frame_from(settings.rate, *length.duration);
+    Outlets outlets({given.sinks,
+                     {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
+                     display::WhenFull::drop,
+                     {},
+                     most_frames,
+                     {}});
+    for (const auto& host : hosts) {
+        host->eye.emplace(
+            HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
+        host::SessionOptions session = session_options(host->link.url(), scene.origin);
+        session.default_window = window_of(painter.image_plane());
+        host->link.start(session);
+    }
+    painter.warm_up(standby_view(painter.image_plane()));
+    scheduler::FrameReport report = report_about(painter);
+    scheduler::FrameRecord record;
+    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets), record, report);
+
+    for (const auto& host : hosts) {
+        host->link.stop();
+        nlohmann::ordered_json told = link_report(host->link.url().text, host->link.statistics());
+        told["port"] = host->link.port();
+        told["replies"] = host->link.replies_sent();
+        told["replies_failed"] = host->link.replies_failed();
+        report.links.push_back(std::move(told));
+    }
+    finish_report(report, record, painter, outlets, options.report);
+}
+
+constexpr const char* kNotes =
+    "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
+    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT and fdm://ADDRESS:PORT; say\n"
+    "0.0.0.0 to be heard beyond this machine. Of several hosts the first that was heard within a second drives.\n"
+    "SIGINT (control-C) and SIGTERM end the run with its report.\n\n"
+    "The same settings may come from a file, for example:\n"
+    "  scene = \"scenes/takeoff.toml\"\n"
+    "  links = [\"fdm://127.0.0.1:5500\"]\n"
+    "  size  = [1280, 720]\n\n"
+    "Examples:\n"
+    "  quadrig run --scene config/scenes/takeoff.toml --link fdm://127.0.0.1:5500 --sink y4m:- | mpv -\n"
+    "  quadrig run --scene config/scenes/turn.toml --link cigi://127.0.0.1:8004 --seconds 60 --report run.json";
+
+}  // namespace
+
+void add_run(CLI::App& program, Action& action) {
+    CLI::App& command = *program.add_subcommand("run", "Draw live, driven by a host over the network");
+    const auto options = std::make_shared<LiveOptions>();
+    command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
+        ->option_text("[APPLIANCE.toml]");
+    add_list_option(
+        command, "--link", options->settings.links, read_link,
+        "Where a host is listened to: cigi://ADDRESS:PORT or\nfdm://ADDRESS:PORT (required; may be given again)",
+        "URL");
+    add_host_options(command, *options);
+    add_picture_options(command, *options);
+    command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");
+    command.footer(kNotes);
+    command.callback([options, &action] { action = [options] { run(*options); }; });
+}
+
+}  // namespace quadrig::appliance

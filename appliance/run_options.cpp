@@ -1,0 +1,49 @@
+#include "appliance/run_options.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "appliance/option_values.h"
+
+namespace quadrig::appliance {
+
+void add_picture_options(CLI::App& command, RunOptions& options) {
+    config::ApplianceSettings& settings = options.settings;
+    add_option(command, "--size", settings.size, read_size, "Pixels of the picture (default 1280x720)", "WxH");
+    add_option(command, "--rate", settings.rate, read_rate, "Frames a second, 1..1000 (default 60)", "HZ");
+    command.add_option("--threads", settings.threads, "Threads that draw, 1..1024 (default: one per core)")
+        ->check(CLI::Range(1, config::kMostThreads))
+        ->option_text("N");
+    add_option(command, "--quality", settings.quality, read_quality, "draft, default or best (default: default)",
+               "NAME");
+    command.add_option("--report", options.report, "Write the run's report to a file, as JSON")
+        ->option_text("FILE.json");
+}
+
+void add_host_options(CLI::App& command, RunOptions& options) {
+    config::ApplianceSettings& settings = options.settings;
+    command.add_option("--scene", settings.scene, "The scene to fly through (required)")->option_text("SCENE.toml");
+    add_list_option(command, "--sink", settings.sinks, read_sink,
+                    "Where pictures go: png:DIRECTORY, y4m:FILE (y4m:- is standard\n"
+                    "output), none:. May be given again (default: nowhere)",
+                    "URL");
+    add_option(command, "--fov", settings.fov, read_field_of_view, "Horizontal field of view, degrees (default 60)",
+               "DEG");
+    command.add_flag("--ignore-host-window", options.ignore_host_window,
+                     "Keep --fov also where a host sends a view window of its own\n(CIGI View Definition)");
+    command.add_flag("--overlay", options.overlay, "Lay a centre cross and the frame's number over the picture");
+    auto* frames = command.add_option("--frames", options.frames, "Stop after N frames")
+                       ->check(CLI::PositiveNumber)
+                       ->option_text("N");
+    add_option(command, "--seconds", options.duration, read_duration, "Stop after S seconds", "S")->excludes(frames);
+}
+
+int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+PictureSettings picture_settings(const config::ApplianceSettings& settings, bool overlay) {
+    return {settings.size.value_or(config::ImageSize{}),        settings.fov.value_or(Degrees{60.0}),
+            settings.rate.value_or(scheduler::FrameRate{}),     settings.threads.value_or(default_threads()),
+            settings.quality.value_or(config::kDefaultQuality), overlay};
+}
+
+}  // namespace quadrig::appliance

@@ -1,0 +1,77 @@
+#include "appliance/run_report.h"
+
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+
+#include "display/atomic_file.h"
+
+namespace quadrig::appliance {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const host::NamedCounts& counts) {
+    Json json = Json::object();
+    for (const auto& [name, count] : counts) json[std::string(name)] = count;
+    return json;
+}
+
+Json json_of(const host::PoseSample& pose) {
+    return {{"latitude", pose.position.latitude.value}, {"longitude", pose.position.longitude.value},
+            {"altitude", pose.position.altitude},       {"heading", pose.attitude.heading.value},
+            {"pitch", pose.attitude.pitch.value},       {"roll", pose.attitude.roll.value}};
+}
+
+}  // namespace
+
+scheduler::FrameReport report_about(const Painter& painter) {
+    const PictureSettings& settings = painter.settings();
+    scheduler::FrameReport report;
+    report.version = QUADRIG_VERSION;
+    report.machine = scheduler::this_machine();
+    report.machine.simd = ImageGenerator::simd_target();
+    report.machine.threads = settings.threads;
+    report.width = settings.size.width;
+    report.height = settings.size.height;
+    report.rate_hz = settings.rate.hertz();
+    return report;
+}
+
+Json link_report(const std::string& url, const host::LinkStatistics& statistics) {
+    Json json{{"url", url},
+              {"datagrams", statistics.datagrams},
+              {"bytes", statistics.bytes},
+              {"frames", statistics.frames},
+              {"packets", json_of(packets_by_name(statistics))},
+              {"rejected", json_of(rejected_by_reason(statistics))},
+              {"lost", statistics.lost},
+              {"duplicate", statistics.duplicate},
+              {"reordered", statistics.reordered},
+              {"restarts", statistics.restarts},
+              {"gaps",
+               {{"count", statistics.gaps.count},
+                {"longest_ms", std::chrono::duration<double, std::milli>(statistics.gaps.longest).count()}}},
+              {"other_entities", statistics.other_entities}};
+    if (statistics.first_pose) json["first_pose"] = json_of(*statistics.first_pose);
+    if (statistics.last_pose) json["last_pose"] = json_of(*statistics.last_pose);
+    return json;
+}
+
+void finish_report(scheduler::FrameReport& report, const scheduler::FrameRecord& record, const Painter& painter,
+                   Outlets& outlets, const std::filesystem::path& file) {
+    add_record(report, record);
+    report.quality[std::string(painter.settings().quality.name)] = record.frames;
+    outlets.finish(report);
+    std::cerr << summary(report);
+    if (!file.empty()) {
+        const std::string text = json_text(report);
+        display::AtomicFile out(file);
+        out.write(text.data(), text.size());
+        out.commit();
+    }
+    for (const scheduler::SinkReport& sink : report.sinks)
+        if (!sink.error.empty()) throw std::runtime_error("sink " + sink.url + " failed: " + sink.error);
+}
+
+}  // namespace quadrig::appliance

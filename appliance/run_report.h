@@ -1,0 +1,26 @@
+/// The report at the end of a run, put together from its parts.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "appliance/outlets.h"
+#include "appliance/painter.h"
+#include "frame_scheduler/frame_report.h"
+#include "host_link/link_statistics.h"
+
+namespace quadrig::appliance {
+
+/// What is known before the first frame: machine, picture, quality.
+scheduler::FrameReport report_about(const Painter& painter);
+
+/// A link as reports tell it.
+nlohmann::ordered_json link_report(const std::string& url, const host::LinkStatistics& statistics);
+
+/// Closes the outlets, says the report on standard error, and writes it to `file` unless that is empty.
+/// Throws std::runtime_error where a sink has failed or the file cannot be written; the report has then been said.
+void finish_report(scheduler::FrameReport& report, const scheduler::FrameRecord& record, const Painter& painter,
+                   Outlets& outlets, const std::filesystem::path& file);
+
+}  // namespace quadrig::appliance

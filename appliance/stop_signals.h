@@ -1,0 +1,11 @@
+/// SIGINT and SIGTERM ask a run to end; it does so with its report.
+#pragma once
+
+namespace quadrig::appliance {
+
+/// From here on the two signals are taken note of. The second one of a kind ends the program at once, as ever.
+void watch_stop_signals();
+/// Whether one has come.
+bool stop_requested();
+
+}  // namespace quadrig::appliance

@@ -1,0 +1,84 @@
+#include "config/appliance_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "config/toml_section.h"
+
+namespace quadrig::config {
+namespace {
+
+const KnownKeys kKeys{"scene", "links", "sinks", "size", "fov", "rate", "threads", "quality"};
+
+bool is_whole_in(double number, double least, double most) {
+    return number >= least && number <= most && std::trunc(number) == number;
+}
+constexpr NumberRule kPixels{"pixels, a whole number in 1..16384",
+                             [](double x) { return is_whole_in(x, 1.0, kLargestImage); }};
+constexpr NumberRule kFieldOfView{"degrees above 0 and below 180", [](double x) { return x > 0.0 && x < 180.0; }};
+constexpr NumberRule kRate{"hertz in 1..1000", [](double x) { return scheduler::frame_rate(x).has_value(); }};
+constexpr NumberRule kThreads{"a whole number in 1..1024", [](double x) { return is_whole_in(x, 1.0, kMostThreads); }};
+
+host::LinkUrl link_from(const TomlSection& section, std::size_t index, const std::string& text) {
+    try {
+        host::LinkUrl url = host::parse_link_url(text);
+        if (!url.port) section.refuse("links", index, "a link with ADDRESS:PORT", "\"" + text + "\"");
+        return url;
+    } catch (const host::LinkUrlError& error) {
+        section.refuse("links", index, "a link", "one that cannot be understood: " + std::string(error.what()));
+    }
+}
+
+}  // namespace
+
+ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRule& sink) {
+    const toml::table document = parse_toml_file(file);
+    const TomlSection section(file, document, "", kKeys);
+    ApplianceSettings settings;
+    if (const auto scene = section.optional_text("scene")) settings.scene = file.parent_path() / *scene;
+    for (const std::string& link : section.texts("links"))
+        settings.links.push_back(link_from(section, settings.links.size(), link));
+    for (const std::string& url : section.texts("sinks")) {
+        if (!sink.holds(url))
+            section.refuse("sinks", settings.sinks.size(), std::string(sink.expected), "\"" + url + "\"");
+        settings.sinks.push_back(url);
+    }
+    if (section.has("size")) {
+        const glm::dvec2 size = section.pair("size", kPixels);
+        settings.size = ImageSize{static_cast<int>(size.x), static_cast<int>(size.y)};
+    }
+    if (section.has("fov")) settings.fov = Degrees{section.number("fov", kFieldOfView)};
+    if (section.has("rate")) settings.rate = scheduler::frame_rate(section.number("rate", kRate));
+    if (section.has("threads")) settings.threads = static_cast<int>(section.number("threads", kThreads));
+    if (const auto name = section.optional_text("quality")) {
+        settings.quality = quality_preset(*name);
+        if (!settings.quality) section.refuse("quality", std::string(kQualityNames), "\"" + *name + "\"");
+    }
+    return settings;
+}
+
+bool is_appliance_file(const std::filesystem::path& file) {
+    const toml::table document = parse_toml_file(file);
+    return std::any_of(kKeys.begin(), kKeys.end(), [&](std::string_view key) {
+        const toml::node* node = document.get(key);
+        return node != nullptr && !(key == "scene" && node->is_table());
+    });
+}
+
+ApplianceSettings combined(ApplianceSettings first, ApplianceSettings second) {
+    const auto fill = [](auto& target, auto& source) {
+        if (!target) target = std::move(source);
+    };
+    fill(first.scene, second.scene);
+    if (first.links.empty()) first.links = std::move(second.links);
+    if (first.sinks.empty()) first.sinks = std::move(second.sinks);
+    fill(first.size, second.size);
+    fill(first.fov, second.fov);
+    fill(first.rate, second.rate);
+    fill(first.threads, second.threads);
+    fill(first.quality, second.quality);
+    return first;
+}
+
+}  // namespace quadrig::config

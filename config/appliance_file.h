@@ -1,0 +1,54 @@
+/// Appliance files: what `quadrig run` is told by a file instead of by options. The format is in config/README.md.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/file_error.h"
+#include "config/quality_preset.h"
+#include "frame_scheduler/frame_clock.h"
+#include "host_link/link_url.h"
+#include "ig_core/geometry/space.h"
+
+namespace quadrig::config {
+
+/// Pixels, 1..kLargestImage each way.
+struct ImageSize {
+    int width = 1280;
+    int height = 720;
+};
+inline constexpr int kLargestImage = 16384;
+inline constexpr int kMostThreads = 1024;
+
+/// Every setting is absent, or its list empty, where it was not given.
+struct ApplianceSettings {
+    std::optional<std::filesystem::path> scene;
+    std::vector<host::LinkUrl> links;
+    std::vector<std::string> sinks;
+    std::optional<ImageSize> size;
+    std::optional<Degrees> fov;  ///< horizontal field of view, above 0 and below 180
+    std::optional<scheduler::FrameRate> rate;
+    std::optional<int> threads;  ///< 1..kMostThreads
+    std::optional<QualityPreset> quality;
+};
+
+/// What a text has to be, in words and as a test.
+struct TextRule {
+    std::string_view expected;
+    bool (*holds)(const std::string&);
+};
+
+/// Reads an appliance file. A relative scene is taken from the file's own directory. `sink` says what a sink URL is.
+/// Throws FileError at the first mistake.
+ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRule& sink);
+
+/// Whether a TOML file holds a setting of an appliance, as no scene does. Throws FileError where it is not TOML.
+bool is_appliance_file(const std::filesystem::path& file);
+
+/// `first`, and from `second` what `first` leaves open.
+ApplianceSettings combined(ApplianceSettings first, ApplianceSettings second);
+
+}  // namespace quadrig::config

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quadrig {
 namespace {
@@ -13,20 +14,21 @@ std::array<float, 3> to_float(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Where a span is sampled: the mean of its sub-scan lines, and the columns between its mean ends.
+/// Where a span is sampled: on the mean of its sub-scan lines, between its outermost ends.
 struct SampleRange {
-    double z, from, to;
+    double z = 0.0, from = std::numeric_limits<double>::infinity(), to = -std::numeric_limits<double>::infinity();
 };
 SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
-    SampleRange sum{0, 0, 0};
+    SampleRange range;
     int lines = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
         if (!(span.from[i] < span.to[i])) continue;
-        sum.z += row.z[i], sum.from += span.from[i], sum.to += span.to[i];
+        range.z += row.z[i];
+        range.from = std::min(range.from, span.from[i]), range.to = std::max(range.to, span.to[i]);
         ++lines;
     }
-    const double share = 1.0 / std::max(1, lines);
-    return {sum.z * share, sum.from * share, sum.to * share};
+    range.z /= std::max(1, lines);
+    return range;
 }
 
 void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step,
@@ -62,7 +64,7 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
     in.count = to - from;
     in.light = &frame.light;
     const double first = from + 0.5, x = row.x(first);
-    in.least_column = static_cast<float>(std::min(range.from, range.to) - first);
+    in.least_column = static_cast<float>(range.from - first);
     in.most_column = static_cast<float>(range.to - first);
     const glm::dmat3 scene_from_eye = glm::transpose(frame.view->eye_from_scene);
     in.ray = to_float(scene_from_eye * glm::dvec3(x, 1.0, range.z));

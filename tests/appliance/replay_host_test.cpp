@@ -1,0 +1,126 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "display/png_file.h"
+#include "host_link/cigi.h"
+#include "host_link/sun_position.h"
+#include "tests/appliance/files.h"
+#include "tests/appliance/flights.h"
+#include "tests/appliance/program.h"
+
+using namespace quadrig;
+using namespace quadrig::tests;
+
+namespace {
+
+constexpr auto kOrder = host::ByteOrder::big;
+
+template <class Packet>
+Bytes bytes_of(const Packet& packet) {
+    Bytes bytes;
+    host::test::append(bytes, packet, kOrder);
+    return bytes;
+}
+
+/// The picture of a host that says one thing over and over, after half a second of it.
+display::Picture replayed(const Bytes& datagram, bool cigi, const std::string& scene_text, const Arguments& more = {}) {
+    std::vector<Bytes> datagrams(30, datagram);
+    if (cigi)  // the host frame number is bytes 8 to 11
+        for (std::size_t i = 0; i < datagrams.size(); ++i) datagrams[i][11] = static_cast<std::byte>(i);
+    const auto out = scratch_directory();
+    Arguments arguments{"replay",  recording(datagrams, cigi ? 8004 : 5500),
+                        "--scene", scratch_file("s.toml", scene_text),
+                        "--size",  "160x120",
+                        "--sink",  "png:" + out.string(),
+                        "--fast"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = quadrig_program(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return display::read_png(out / "frame-000028.png");
+}
+
+display::Picture rendered(const std::string& scene_text, const std::string& eye, const std::string& attitude,
+                          const std::string& fov) {
+    const auto out = scratch_directory() / "still.png";
+    const Outcome outcome =
+        quadrig_program({"render", scratch_file("s.toml", scene_text), "--eye", eye, "--attitude", attitude, "--size",
+                         "160x120", "--fov", fov, "-o", out, "--time", "0.46666666666666667"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return display::read_png(out);
+}
+
+/// The wire rounds angles to single precision: a few edge pixels may differ by a little.
+void check_same(const display::Picture& a, const display::Picture& b) {
+    CHECK(difference(a, b).mean < 0.01);
+    CHECK(difference(a, b).largest < 16);
+}
+void check_different(const display::Picture& a, const display::Picture& b) { CHECK(difference(a, b).mean > 1.0); }
+
+const Pose kPose{14.0, {{12.5}, {-3.0}, {20.0}}};
+
+}  // namespace
+
+TEST_CASE("A FlightGear pose is seen as the still picture from the same eye") {
+    check_same(replayed(fdm_message(kPose), false, small_scene()),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+    check_different(replayed(fdm_message({14.0, {}}), false, small_scene()),
+                    rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+}
+
+TEST_CASE("A CIGI pose is seen as the still picture from the same eye") {
+    check_same(replayed(cigi_message(0, kPose), true, small_scene()),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+}
+
+TEST_CASE("The altitude offset of a link moves the eye") {
+    check_same(replayed(fdm_message(kPose), false, small_scene(), {"--link", "fdm:?altitude_offset=6.5"}),
+               rendered(small_scene(), "0,0,20.5", "12.5,-3,20", "60"));
+}
+
+TEST_CASE("The host's view window wins over --fov unless it is to be ignored") {
+    host::cigi::ViewDefinition window;
+    window.left_enable = window.right_enable = true;
+    window.left = -20.0F, window.right = 20.0F;
+    // Top and bottom are left out, so they stay the channel's: those of --fov 40 here.
+    const Bytes message = cigi_message(0, kPose, bytes_of(window));
+    check_same(replayed(message, true, small_scene(), {"--fov", "40"}),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "40"));
+    const double top = std::atan(std::tan(Degrees{20.0}.radians()) * 0.75);
+    window.top_enable = window.bottom_enable = true;
+    window.top = static_cast<float>(Degrees::from_radians(top).value), window.bottom = -window.top;
+    const Bytes whole = cigi_message(0, kPose, bytes_of(window));
+    check_same(replayed(whole, true, small_scene(), {"--fov", "90"}),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "40"));
+    check_same(replayed(whole, true, small_scene(), {"--fov", "90", "--ignore-host-window"}),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "90"));
+}
+
+TEST_CASE("The eye sits where View Control mounts it on the ownship") {
+    host::cigi::ViewControl mount;
+    mount.x_enable = mount.y_enable = mount.z_enable = mount.yaw_enable = true;
+    mount.x = 5.0F, mount.y = 2.0F, mount.z = -3.0F, mount.yaw = -30.0F;
+    check_same(replayed(cigi_message(0, {14.0, {}}, bytes_of(mount)), true, small_scene()),
+               rendered(small_scene(), "2,5,17", "-30,0,0", "60"));
+}
+
+TEST_CASE("The sun stands where the host's date and time put it, and haze is the host's visibility") {
+    host::cigi::CelestialSphereControl sky;
+    sky.hour = 15, sky.minute = 30, sky.date = 6'21'2024, sky.date_time_valid = true;
+    host::cigi::AtmosphereControl air;
+    air.visibility = 1500.0F;
+    const auto sun = host::sun_position({2024, 6, 21, 15, 30, 0.0}, {{47.26}, {11.34}, 581.0});
+    CHECK(sun.azimuth.value > 240.0);
+    const std::string expected = "[sun]\nazimuth = " + std::to_string(sun.azimuth.value) +
+                                 "\nelevation = " + std::to_string(sun.elevation.value) +
+                                 "\n[haze]\nvisibility = 1500.0\n";
+    const auto picture =
+        replayed(cigi_message(0, kPose, host::test::operator+(bytes_of(sky), bytes_of(air))), true, small_scene());
+    check_same(picture, rendered(small_scene(expected), "0,0,14", "12.5,-3,20", "60"));
+    check_different(picture, rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+
+    sky.date_time_valid = false;
+    check_same(replayed(cigi_message(0, kPose, bytes_of(sky)), true, small_scene()),
+               rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+}

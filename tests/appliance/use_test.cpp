@@ -1,0 +1,178 @@
+#include <catch2/catch.hpp>
+
+#include "tests/appliance/files.h"
+#include "tests/appliance/program.h"
+
+using namespace quadrig::tests;
+using Catch::Contains;
+
+namespace {
+
+const Arguments kStill{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"};
+
+Arguments operator+(Arguments left, const Arguments& right) {
+    left.insert(left.end(), right.begin(), right.end());
+    return left;
+}
+
+std::string joined(const Arguments& words) {
+    std::string line;
+    for (const std::string& word : words) line += " " + word;
+    return line;
+}
+
+}  // namespace
+
+TEST_CASE("Help goes to standard output, names every command and option, and is a success") {
+    const Outcome program = quadrig_program({"--help"});
+    CHECK(program.status == 0);
+    CHECK(program.err.empty());
+    for (const char* command : {"render", "replay", "run", "bench", "check"})
+        CHECK_THAT(program.out, Contains(command));
+    const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
+        {"render",
+         {"--eye", "--attitude", "--size", "--fov", "--time", "--output", "--object-ids", "--surface-ids", "--depth",
+          "--reference", "--samples", "--threads", "--quality"}},
+        {"replay",
+         {"--scene", "--link", "--sink", "--size", "--fov", "--rate", "--frames", "--seconds", "--threads", "--quality",
+          "--report", "--fast", "--overlay", "--contact-sheet", "--ignore-host-window"}},
+        {"run",
+         {"--scene", "--link", "--sink", "--size", "--fov", "--rate", "--frames", "--seconds", "--threads", "--quality",
+          "--report", "--overlay", "APPLIANCE.toml", "SIGTERM"}},
+        {"bench", {"--path", "--frames", "--size", "--threads", "--quality", "--report"}},
+        {"check", {"FILE"}}};
+    for (const auto& [command, options] : commands) {
+        const Outcome help = quadrig_program({command, "--help"});
+        CHECK(help.status == 0);
+        CHECK_THAT(help.out, Contains("Example"));
+        for (const std::string& option : options) CHECK_THAT(help.out, Contains(option));
+    }
+}
+
+TEST_CASE("The version is told on standard output") {
+    const Outcome version = quadrig_program({"--version"});
+    CHECK(version.status == 0);
+    CHECK(version.out == "quadrig 0.1.0\n");
+}
+
+TEST_CASE("Wrong use is exit status 2, with the reason on standard error and nothing on standard output") {
+    const std::string scene = scratch_file("scene.toml", small_scene());
+    const std::string flight = shipped("config/traces/cigi33-737-turn.pcapng");
+    const std::string cameras = scratch_file("cameras.json", R"([{"eye":[0,0,8],"attitude":[0,0,0],"fov":60}])");
+    const std::string picture = scratch_directory() / "never.png";
+    const Arguments render{"render", scene, "-o", picture};
+    struct Case {
+        Arguments arguments;
+        std::string reason;
+    };
+    const std::vector<Case> cases{
+        {{}, "subcommand"},
+        {{"fly"}, "fly"},
+        {{"--frobnicate"}, "--frobnicate"},
+        {{"render"}, "required"},
+        {render, "--eye"},
+        {{"render", scene, "--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "-o", picture}, "--fov"},
+        {Arguments{"render", scene} + kStill, "nothing to make"},
+        {render + kStill + Arguments{"--frobnicate"}, "--frobnicate"},
+        {render + kStill + Arguments{"second.toml"}, "second.toml"},
+        {render + kStill + Arguments{"--samples", "2"}, "--reference"},
+        {render + kStill + Arguments{"--reference", "--samples", "0"}, "--samples"},
+        {render + kStill + Arguments{"--reference", "--quality", "best"}, "--quality"},
+        {render + kStill + Arguments{"--quality", "nice"}, "nice"},
+        {render + kStill + Arguments{"--threads", "0"}, "--threads"},
+        {render + kStill + Arguments{"--threads", "two"}, "two"},
+        {render + kStill + Arguments{"--time", "nan"}, "nan"},
+        {render + kStill + Arguments{"--time"}, "--time"},
+        {render + Arguments{"--eye", "0,0", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"}, "0,0"},
+        {render + Arguments{"--eye", "0,0,8,1", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"}, "0,0,8,1"},
+        {render + Arguments{"--eye", "0,inf,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"}, "inf"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "a,0,0", "--size", "64x48", "--fov", "60"}, "a,0,0"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64", "--fov", "60"}, "'64'"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "0x48", "--fov", "60"}, "0x48"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x16385", "--fov", "60"}, "16384"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48x", "--fov", "60"}, "64x48x"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "180"}, "180"},
+        {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "0"}, "below 180"},
+        {{"replay", flight}, "--scene"},
+        {{"replay", "--scene", scene}, "recording"},
+        {{"replay", flight, "--scene", scene, "--link", "can:"}, "can"},
+        {{"replay", flight, "--scene", scene, "--link", "cigi://127.0.0.1:8004"}, "without an address"},
+        {{"replay", flight, "--scene", scene, "--sink", "mpeg:x"}, "mpeg:x"},
+        {{"replay", flight, "--scene", scene, "--sink", "png:"}, "png:"},
+        {{"replay", flight, "--scene", scene, "--rate", "0.5"}, "hertz"},
+        {{"replay", flight, "--scene", scene, "--frames", "0"}, "--frames"},
+        {{"replay", flight, "--scene", scene, "--frames", "5", "--seconds", "1"}, "--frames"},
+        {{"replay", flight, "--scene", scene, "--seconds", "-1"}, "-1"},
+        {{"run", "--link", "fdm://127.0.0.1:0"}, "--scene"},
+        {{"run", "--scene", scene}, "--link"},
+        {{"run", "--scene", scene, "--link", "fdm:"}, "ADDRESS:PORT"},
+        {{"run", "--scene", scene, "--link", "fdm://localhost:99999"}, "99999"},
+        {{"run", "--scene", scene, "--link", "fdm://far.example:5500"}, "far.example"},
+        {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=4.0"}, "4.0"},
+        {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:502"}, "modbus"},
+        {{"bench", scene}, "--path"},
+        {{"bench", scene, "--path", cameras, "--frames", "-3"}, "--frames"},
+        {{"check"}, "required"},
+        {{"check", scene, scene}, scene},
+    };
+    for (const Case& wrong : cases) {
+        INFO("quadrig" << joined(wrong.arguments));
+        const Outcome outcome = quadrig_program(wrong.arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK(outcome.out.empty());
+        CHECK_THAT(outcome.err, Contains(wrong.reason));
+        CHECK_THAT(outcome.err, Contains("--help"));
+    }
+    CHECK_FALSE(std::filesystem::exists(picture));
+}
+
+TEST_CASE("What cannot be done is exit status 1, with the reason on standard error") {
+    const std::string scene = scratch_file("scene.toml", small_scene());
+    const std::string flight = shipped("config/traces/cigi33-737-turn.pcapng");
+    const std::string empty = scratch_file("empty.pcap", "");
+    const std::string bad_scene = scratch_file(
+        "bad.toml", "[sun]\nazimuth = 10\n[[object]]\nellipsoid = { centre = [0, 0], semi_axes = [1, 1, 1] }\n");
+    const std::string bad_settings = scratch_file("bad-appliance.toml", "size = [0, 48]\n");
+    const std::string bad_cameras = scratch_file("cameras.json", "[{\"eye\": [0, 0]}]");
+    const std::string nowhere = scratch_directory() / "missing" / "x.png";
+    struct Case {
+        Arguments arguments;
+        std::string reason;
+    };
+    const std::vector<Case> cases{
+        {Arguments{"render", "no-such.toml"} + kStill + Arguments{"-o", "x.png"}, "no-such.toml"},
+        {Arguments{"render", bad_scene} + kStill + Arguments{"-o", "x.png"},
+         bad_scene + ":4: key 'object[0].ellipsoid"},
+        {Arguments{"render", scene} + kStill + Arguments{"-o", nowhere}, nowhere},
+        {{"replay", "no-such.pcap", "--scene", scene}, "no-such.pcap"},
+        {{"replay", empty, "--scene", scene}, empty},
+        {{"replay", scene, "--scene", scene}, scene},
+        {{"replay", flight, "--scene", bad_scene}, bad_scene + ":4:"},
+        {{"replay", flight, "--scene", scene, "--link", "fdm:", "--fast"}, flight},
+        {{"replay", flight, "--scene", scene, "--fast", "--frames", "1", "--sink", "png:/proc/none"}, "/proc/none"},
+        {{"replay", flight, "--scene", scene, "--fast", "--frames", "1", "--size", "8x8", "--report", "/proc/none/r"},
+         "/proc/none/r"},
+        {{"run", bad_settings}, bad_settings + ":1: key 'size[0]'"},
+        {{"run", "--scene", bad_scene, "--link", "fdm://127.0.0.1:0"}, bad_scene + ":4:"},
+        {{"bench", scene, "--path", bad_cameras}, "[0].eye"},
+        {{"check", bad_scene}, bad_scene + ":4:"},
+        {{"check", bad_settings}, bad_settings + ":1: key 'size[0]'"},
+        {{"check", bad_cameras}, "[0].eye"},
+        {{"check", empty}, empty},
+    };
+    for (const Case& impossible : cases) {
+        INFO("quadrig" << joined(impossible.arguments));
+        const Outcome outcome = quadrig_program(impossible.arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == 1);
+        CHECK(outcome.out.empty());
+        CHECK_THAT(outcome.err, Contains(impossible.reason));
+    }
+}
+
+TEST_CASE("Standard output that cannot be written to is a failure") {
+    const std::string scene = scratch_file("scene.toml", small_scene());
+    const std::string command = std::string(QUADRIG_PROGRAM) + " check '" + scene + "' 2>/dev/null >/dev/full";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+}

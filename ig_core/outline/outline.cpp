@@ -24,22 +24,6 @@ constexpr std::size_t kMaxCandidates = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlan
 
 double line_on_row(const glm::dvec3& line, double zeta) { return -(line.y + line.z * zeta) / line.x; }
 
-double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
-    switch (boundary.kind) {
-        case Boundary::Kind::rising:
-            return roots_on_row(outline.curves[boundary.index], zeta).rising;
-        case Boundary::Kind::falling:
-            return roots_on_row(outline.curves[boundary.index], zeta).falling;
-        case Boundary::Kind::line:
-            return line_on_row(outline.lines[boundary.index].line, zeta);
-        case Boundary::Kind::left_end:
-            return -kInfinity;
-        case Boundary::Kind::right_end:
-            return kInfinity;
-    }
-    return kInfinity;
-}
-
 /// Every place on a row where the visible surface may change, sorted.
 std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
     std::size_t count = 0;
@@ -122,6 +106,22 @@ void find_bands(const RowGrid& rows, Outline& out) {
 }
 
 }  // namespace
+
+double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
+    switch (boundary.kind) {
+        case Boundary::Kind::rising:
+            return roots_on_row(outline.curves[boundary.index], zeta).rising;
+        case Boundary::Kind::falling:
+            return roots_on_row(outline.curves[boundary.index], zeta).falling;
+        case Boundary::Kind::line:
+            return line_on_row(outline.lines[boundary.index].line, zeta);
+        case Boundary::Kind::left_end:
+            return -kInfinity;
+        case Boundary::Kind::right_end:
+            return kInfinity;
+    }
+    return kInfinity;
+}
 
 bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, double x_from,
                     double x_to, double z_from, double z_to) {

@@ -86,6 +86,9 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 /// kMaxCuts).
 int cuts_on_row(const Outline& outline, double z, Cut* cuts);
 
+/// Where a boundary crosses the row zeta: xi, infinite at the ends of a row.
+double intercept(const Outline& outline, const Boundary& boundary, double zeta);
+
 /// Ends of an outline that is nothing but its limb, on several scan lines at once; from > to where a line misses it.
 void limb_on_lines(const Outline& outline, const double* z, std::size_t count, double* from, double* to);
 

@@ -57,53 +57,48 @@ void CompositeWhole(const ShadeBuffer& buffer, std::span<const std::uint32_t> sa
     }
 }
 
-/// Share of each cell of one pixel that a span covers, sub-scan line by sub-scan line.
-HWY_INLINE void cell_cover(const RowSpan& span, int column, int sub_lines, float* HWY_RESTRICT cover) {
-    if (span.inner_from <= column && column < span.inner_to) {
-        std::fill_n(cover, kCellsPerLine * sub_lines, 1.0F);
-        return;
-    }
-    for (int line = 0; line < sub_lines; ++line) {
-        const auto l = static_cast<std::size_t>(line);
-        const float from = static_cast<float>(span.from[l] - column) * kCellsPerLine;
-        const float to = static_cast<float>(span.to[l] - column) * kCellsPerLine;
-        for (int cell = 0; cell < kCellsPerLine; ++cell) {
-            const float at = static_cast<float>(cell);
-            const float upper = std::clamp(to - at, 0.0F, 1.0F), lower = std::clamp(from - at, 0.0F, 1.0F);
-            cover[line * kCellsPerLine + cell] = std::max(0.0F, upper - lower);
-        }
-    }
+/// Share of each cell of one sub-scan line of a pixel that lies between two ends, given in cells from the pixel's left
+/// edge.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V cell_cover(D d, float from, float to) {
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), cell = hn::Iota(d, 0.0F);
+    const V upper = hn::Clamp(hn::Sub(hn::Set(d, to), cell), zero, one);
+    const V lower = hn::Clamp(hn::Sub(hn::Set(d, from), cell), zero, one);
+    return hn::Max(zero, hn::Sub(upper, lower));
 }
 
 void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
                       ShadeBuffer& row) {
-    const hn::CappedTag<float, 4> d;  // a sub-scan line of cells
-    constexpr std::size_t kLines = kMaxSubScanLines;
+    const hn::CappedTag<float, kCellsPerLine> d;
+    using V = hn::Vec<decltype(d)>;
     const auto lines = static_cast<std::size_t>(sub_lines);
-    using V = decltype(hn::Zero(d));
-    alignas(16) float through[kMaxCells], at_group[kMaxCells], cover[kMaxCells];
-    static_assert(kLines * 4 == kMaxCells);
-    std::fill_n(through, kMaxCells, 1.0F);
+    const std::size_t cells = lines * kCellsPerLine;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    alignas(16) float through[kMaxCells], at_group[kMaxCells];
+    std::fill_n(through, cells, 1.0F);
+    const float scale = 1.0F / static_cast<float>(cells);
     std::uint32_t group = ~0U;
     float red = 0, green = 0, blue = 0;
     for (const PartialLayer& layer : layers) {
         // Layers of one object lie side by side: what one of them leaves uncovered the next may fill, so both start
         // from the light that reached the group. Otherwise the background would show along their common edge.
-        if (layer.group != group) std::copy_n(through, kMaxCells, at_group);
+        if (layer.group != group) std::copy_n(through, cells, at_group);
         group = layer.group;
-        cell_cover(*layer.span, column, sub_lines, cover);
-        const float opacity = buffer.opacity[layer.sample];
-        const V alpha = hn::Set(d, opacity);
-        V sum = hn::Zero(d);
-        V left = hn::Zero(d);
+        const RowSpan& span = *layer.span;
+        const bool whole = span.inner_from <= column && column < span.inner_to;
+        const V alpha = hn::Set(d, buffer.opacity[layer.sample]);
+        V sum = zero, left = zero;
         for (std::size_t line = 0; line < lines; ++line) {
-            const V weight = hn::Mul(hn::Mul(hn::Load(d, cover + line * 4), alpha), hn::Load(d, at_group + line * 4));
-            const V rest = hn::Max(hn::Zero(d), hn::Sub(hn::Load(d, through + line * 4), weight));
-            hn::Store(rest, d, through + line * 4);
+            const V cover = whole ? one
+                                  : cell_cover(d, static_cast<float>(span.from[line] - column) * kCellsPerLine,
+                                               static_cast<float>(span.to[line] - column) * kCellsPerLine);
+            const V weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + line * kCellsPerLine));
+            const V rest = hn::Max(zero, hn::Sub(hn::Load(d, through + line * kCellsPerLine), weight));
+            hn::Store(rest, d, through + line * kCellsPerLine);
             sum = hn::Add(sum, weight);
             left = hn::Max(left, rest);
         }
-        const float weight = hn::GetLane(hn::SumOfLanes(d, sum)) / static_cast<float>(kCellsPerLine * sub_lines);
+        const float weight = hn::GetLane(hn::SumOfLanes(d, sum)) * scale;
         red += weight * buffer.red[layer.sample];
         green += weight * buffer.green[layer.sample];
         blue += weight * buffer.blue[layer.sample];

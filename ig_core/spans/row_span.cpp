@@ -28,7 +28,7 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
         }
         return;
     }
-    b0_ = e.v.y + e.v.z * zeta, b1_ = e.v.x, s_ = e.s;
+    b0_ = e.v.y + e.v.z * zeta, b1_ = e.v.x, inverse_s_ = 1.0 / e.s;
     a_[0] = e.m.yy + zeta * (2.0 * e.m.yz + zeta * e.m.zz), a_[1] = 2.0 * (e.m.xy + e.m.xz * zeta), a_[2] = e.m.xx;
     d_[0] = e.limb.yy + zeta * (2.0 * e.limb.yz + zeta * e.limb.zz), d_[1] = 2.0 * (e.limb.xy + e.limb.xz * zeta);
     d_[2] = e.limb.xx;
@@ -38,13 +38,14 @@ DepthOnLine::Sample DepthOnLine::at(double column) const {
     if (plane_) return {u0_ + u1_ * column, u1_};
     const double xi = xi0_ + step_ * column;
     const double b = b0_ + b1_ * xi;
-    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), d_slope = d_[1] + 2.0 * xi * d_[2];
+    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), half_d_slope = 0.5 * d_[1] + xi * d_[2];
     const double root = d > 0.0 ? std::sqrt(d) : 0.0;
+    const double root_slope = half_d_slope / root;
     // u solves C u^2 + 2 B u + A = 0 (Eq 4 divided by k^2); of its two forms the one that does not cancel.
-    if (b <= 0.0) return {(root - b) / s_, step_ * (0.5 * d_slope / root - b1_) / s_};
+    if (b <= 0.0) return {(root - b) * inverse_s_, step_ * (root_slope - b1_) * inverse_s_};
     const double a = a_[0] + xi * (a_[1] + xi * a_[2]), a_slope = a_[1] + 2.0 * xi * a_[2];
     const double sum = b + root, u = -a / sum;
-    return {u, step_ * (-a_slope - u * (b1_ + 0.5 * d_slope / root)) / sum};
+    return {u, step_ * (-a_slope - u * (b1_ + root_slope)) / sum};
 }
 
 DepthOnLine::Bounds DepthOnLine::between(double from, double to) const {

@@ -72,10 +72,10 @@ class DepthOnLine {
 
   private:
     bool plane_;
-    double u0_ = 0, u1_ = 0;          // plane: u0 + u1 column
-    double xi0_ = 0, step_ = 1;       // quadric: xi = xi0 + step column
-    double b0_ = 0, b1_ = 0, s_ = 1;  // B = b0 + b1 xi, C = s
-    double a_[3] = {}, d_[3] = {};    // A and the limb form as polynomials in xi
+    double u0_ = 0, u1_ = 0;                  // plane: u0 + u1 column
+    double xi0_ = 0, step_ = 1;               // quadric: xi = xi0 + step column
+    double b0_ = 0, b1_ = 0, inverse_s_ = 1;  // B = b0 + b1 xi, C = s
+    double a_[3] = {}, d_[3] = {};            // A and the limb form as polynomials in xi
 };
 
 }  // namespace quadrig

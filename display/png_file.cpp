@@ -5,6 +5,8 @@
 
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -46,17 +48,41 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const FrameImage
     return true;
 }
 
+/// Writes a whole file to a stream; `name` is what an error is about.
+void write_png(std::FILE* stream, const std::string& name, const FrameImage& image, PngCompression compression) {
+    Complaint complaint;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
+    png_infop info = png ? png_create_info_struct(png) : nullptr;
+    const bool written = info && encode(png, info, stream, image, compression);
+    png_destroy_write_struct(&png, &info);
+    if (!written) throw std::runtime_error(name + ": cannot be written: " + complaint.text);
+}
+
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const FrameImage& image, PngCompression compression) {
     AtomicFile file(path);
-    Complaint complaint;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
-    png_infop info = png ? png_create_info_struct(png) : nullptr;
-    const bool written = info && encode(png, info, file.stream(), image, compression);
-    png_destroy_write_struct(&png, &info);
-    if (!written) throw std::runtime_error(path.string() + ": cannot be written: " + complaint.text);
+    write_png(file.stream(), path.string(), image, compression);
     file.commit();
+}
+
+std::string png_bytes(const FrameImage& image, PngCompression compression) {
+    struct Memory {
+        char* bytes = nullptr;
+        std::size_t size = 0;
+        std::FILE* stream = open_memstream(&bytes, &size);
+        Memory() = default;
+        Memory(const Memory&) = delete;
+        Memory& operator=(const Memory&) = delete;
+        ~Memory() {
+            if (stream != nullptr) std::fclose(stream);
+            std::free(bytes);
+        }
+    } memory;
+    if (memory.stream == nullptr) throw std::bad_alloc();
+    write_png(memory.stream, "picture", image, compression);
+    if (std::fflush(memory.stream) != 0) throw std::bad_alloc();
+    return {memory.bytes, memory.size};
 }
 
 Picture read_png(const std::filesystem::path& path) {

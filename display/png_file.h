@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "display/picture.h"
 #include "ig_core/view.h"
@@ -15,6 +16,9 @@ enum class PngCompression { fast, small };
 /// Throws std::runtime_error with the path and the reason.
 void write_png(const std::filesystem::path& path, const FrameImage& image,
                PngCompression compression = PngCompression::small);
+
+/// The same file as bytes in memory. Throws std::runtime_error with the reason.
+std::string png_bytes(const FrameImage& image, PngCompression compression = PngCompression::small);
 
 /// Reads any PNG as RGBA8. Throws std::runtime_error with the path and the reason.
 Picture read_png(const std::filesystem::path& path);

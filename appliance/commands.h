@@ -21,5 +21,6 @@ void add_replay(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
+void add_outline(CLI::App& program, Action& action);
 
 }  // namespace quadrig::appliance

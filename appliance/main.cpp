@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     add_run(program, action);
     add_bench(program, action);
     add_check(program, action);
+    add_outline(program, action);
     try {
         program.parse(argc, argv);
         action();

@@ -7,9 +7,8 @@
 
 #include <vector>
 
-#include "ig_core/geometry/space.h"
+#include "ig_core/outline/image_forms.h"
 #include "ig_core/outline/polyline.h"
-#include "ig_core/scene/solid.h"
 
 namespace quadrig {
 

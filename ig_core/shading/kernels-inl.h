@@ -182,6 +182,139 @@ HWY_INLINE SurfacePoint<V> on_plane(D d, const ShadeInput& in, V column) {
     return {depth, splat(d, in.normal), hn::Set(d, 1.0F), hn::Set(d, 1.0F)};
 }
 
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+    return in.kind == ShadeInput::Kind::quadric ? on_quadric(d, in, column, ray) : on_plane(d, in, column);
+}
+
+/// Mean squared growth of the arguments of the two sine families, per unit frequency (m^2), for a step of the surface
+/// point.
+template <class V>
+struct Footprint {
+    V x, y;
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Footprint<V> footprint(D d, float vertical_variation, V x2, V y2, V z2) {
+    // Mean squares of the phase functions' slopes: pi/4 cos and pi u/2 cos.
+    const V across = hn::Set(d, 0.30842514F);
+    const V up = hn::Mul(hn::Set(d, 1.2337006F * vertical_variation * vertical_variation), z2);
+    return {hn::Add(x2, hn::MulAdd(across, y2, up)), hn::Add(y2, hn::MulAdd(across, x2, up))};
+}
+
+/// Footprints of a whole pixel, and of the step to the next column alone.
+template <class V>
+struct PixelFootprint {
+    Footprint<V> pixel, column;
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PixelFootprint<V> pixel_footprint(D d, const ShadeInput& in, const SurfacePoint<V>& point,
+                                             const Vec3<V>& ray, V length) {
+    // How far the surface point moves from a column and from a row to the next: dP = k (e - d (N.e)/(N.d)).
+    const Vec3<V> ray_step = splat(d, in.ray_step), along_row = splat(d, in.along_row);
+    const V against = dot(point.normal, ray);
+    const V least_against = hn::Mul(hn::Set(d, 1e-3F), hn::Div(length, point.inverse_length));
+    const V inverse = hn::CopySign(hn::Div(point.depth, hn::Max(hn::Abs(against), least_against)), against);
+    const V tilt_x = hn::Mul(dot(point.normal, ray_step), inverse),
+            tilt_z = hn::Mul(dot(point.normal, along_row), inverse);
+    const auto squared_step = [&](const Vec3<V>& step, V tilt) {
+        const V x = hn::NegMulAdd(tilt, ray.x, hn::Mul(point.depth, step.x));
+        const V y = hn::NegMulAdd(tilt, ray.y, hn::Mul(point.depth, step.y));
+        const V z = hn::NegMulAdd(tilt, ray.z, hn::Mul(point.depth, step.z));
+        return Vec3<V>{hn::Mul(x, x), hn::Mul(y, y), hn::Mul(z, z)};
+    };
+    const Vec3<V> column = squared_step(ray_step, tilt_x), row = squared_step(along_row, tilt_z);
+    const float u = in.paint->texture->vertical;
+    return {footprint(d, u, hn::Add(column.x, row.x), hn::Add(column.y, row.y), hn::Add(column.z, row.z)),
+            footprint(d, u, column.x, column.y, column.z)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE TextureSample<V> texture_at(D d, const ShadeInput& in, const SurfacePoint<V>& point, const Vec3<V>& ray,
+                                       V length) {
+    const Footprint<V> f = pixel_footprint(d, in, point, ray, length).pixel;
+    const Vec3<V> p{hn::Mul(point.depth, ray.x), hn::Mul(point.depth, ray.y), hn::Mul(point.depth, ray.z)};
+    return in.paint->translucent ? texturing_function<true>(d, *in.paint->texture, p, f.x, f.y)
+                                 : texturing_function<false>(d, *in.paint->texture, p, f.x, f.y);
+}
+
+/// Texture of a block of columns, where it is smooth enough to be sampled at every second or fourth and interpolated.
+constexpr int kTextureBlock = 64;
+struct TextureBlock {
+    alignas(64) float value[kTextureBlock + kShadePadding], lost_variance[kTextureBlock + kShadePadding];
+    float last_value, last_lost_variance;  ///< at the column after the block
+    bool continues = false;                ///< the two above are the next block's first sample
+};
+/// Largest growth of a sine's argument between samples, rad rms: linear interpolation is then wrong by 1.1 % of that
+/// sine, and less of the slower ones.
+constexpr float kLargestPhaseStep = 0.3F;
+
+/// How many columns apart the texture may be sampled on a block: 1, 2 or 4.
+HWY_INLINE int texture_stride(const ShadeInput& in, int first) {
+    const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
+    const float spacing = static_cast<float>(kTextureBlock) / static_cast<float>(hn::Lanes(d) - 1);
+    const V column =
+        hn::Clamp(hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, spacing), hn::Set(d, static_cast<float>(first))),
+                  hn::Set(d, in.least_column), hn::Set(d, in.most_column));
+    const Vec3<V> ray = mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
+    const V length = hn::Sqrt(dot(ray, ray));
+    const PixelFootprint<V> f = pixel_footprint(d, in, on_surface(d, in, column, ray), ray, length);
+    const float sharpest = hn::GetLane(hn::MinOfLanes(d, hn::Min(f.pixel.x, f.pixel.y)));
+    const float steepest = hn::GetLane(hn::MaxOfLanes(d, hn::Max(f.column.x, f.column.y)));
+    const FrameTexture& texture = *in.paint->texture;
+    int alive = texture.count;
+    constexpr float kTurn2 = 4.0F * 9.8696044F;
+    const auto squared = [&](int term) {
+        const float w = texture.terms[static_cast<std::size_t>(term)].turns_per_metre;
+        return kTurn2 * w * w;
+    };
+    while (alive > 0 && squared(alive - 1) * sharpest > 48.0F) --alive;
+    if (alive == 0) return 4;
+    const float step2 = squared(alive - 1) * steepest;
+    constexpr float kLimit2 = kLargestPhaseStep * kLargestPhaseStep;
+    return step2 * 16.0F <= kLimit2 ? 4 : step2 * 4.0F <= kLimit2 ? 2 : 1;
+}
+
+/// Fills a block by interpolation between samples `stride` (2 or 4) columns apart.
+HWY_INLINE void interpolate_texture(const ShadeInput& in, int first, int stride, TextureBlock& block) {
+    const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t n = hn::Lanes(d), samples = static_cast<std::size_t>(kTextureBlock / stride);
+    alignas(64) float value[kTextureBlock / 2 + 2 * kShadePadding], lost[kTextureBlock / 2 + 2 * kShadePadding];
+    // Sample 0 is the block's first column, known from the block before it if that one was interpolated too.
+    const auto sample = [&](std::size_t from) {
+        const V index = hn::Iota(d, static_cast<float>(from));
+        const V column =
+            hn::Clamp(hn::MulAdd(index, hn::Set(d, static_cast<float>(stride)), hn::Set(d, static_cast<float>(first))),
+                      hn::Set(d, in.least_column), hn::Set(d, in.most_column));
+        const Vec3<V> ray = mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
+        const TextureSample<V> t = texture_at(d, in, on_surface(d, in, column, ray), ray, hn::Sqrt(dot(ray, ray)));
+        hn::StoreU(t.value, d, value + from);
+        hn::StoreU(t.lost_variance, d, lost + from);
+    };
+    if (block.continues)
+        value[0] = block.last_value, lost[0] = block.last_lost_variance;
+    else
+        sample(0);
+    for (std::size_t i = block.continues ? 1 : n; i <= samples; i += n) sample(i);
+    const V quarter = hn::Set(d, 0.25F), half = hn::Set(d, 0.5F), three_quarters = hn::Set(d, 0.75F);
+    const auto spread = [&](const float* from, float* to) {
+        for (std::size_t i = 0; i < samples; i += n) {
+            const V here = hn::LoadU(d, from + i), rise = hn::Sub(hn::LoadU(d, from + i + 1), here);
+            const V middle = hn::MulAdd(half, rise, here);
+            if (stride == 2)
+                hn::StoreInterleaved2(here, middle, d, to + 2 * i);
+            else
+                hn::StoreInterleaved4(here, hn::MulAdd(quarter, rise, here), middle,
+                                      hn::MulAdd(three_quarters, rise, here), d, to + 4 * i);
+        }
+    };
+    spread(value, block.value);
+    spread(lost, block.lost_variance);
+    block.last_value = value[samples], block.last_lost_variance = lost[samples];
+    block.continues = true;
+}
+
 HWY_INLINE void shade_columns(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
@@ -189,10 +322,21 @@ HWY_INLINE void shade_columns(const ShadeInput& in, ShadeBuffer& buffer, std::si
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), half = hn::Set(d, 0.5F);
     const FrameLight& light = *in.light;
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
-    const Vec3<V> ray_start = splat(d, in.ray), ray_step = splat(d, in.ray_step), along_row = splat(d, in.along_row);
+    const bool textured = in.kind != ShadeInput::Kind::sky && in.paint->texture != nullptr;
+    TextureBlock block;
+    int stride = 1;
     for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); i += n) {
+        const std::size_t in_block = i % kTextureBlock;
+        if (textured && in_block == 0) {
+            const bool long_enough = in.count - static_cast<int>(i) >= kTextureBlock / 2;
+            stride = long_enough ? texture_stride(in, static_cast<int>(i)) : 1;
+            if (stride > 1)
+                interpolate_texture(in, static_cast<int>(i), stride, block);
+            else
+                block.continues = false;
+        }
         const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i)), least, most);
-        const Vec3<V> ray = mul_add(column, ray_step, ray_start);
+        const Vec3<V> ray = mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
         const V length = hn::Sqrt(dot(ray, ray));
         Vec3<V> colour;
         V opacity = one;
@@ -203,38 +347,15 @@ HWY_INLINE void shade_columns(const ShadeInput& in, ShadeBuffer& buffer, std::si
                       hn::MulAdd(sine, hn::Sub(zenith.y, horizon.y), horizon.y),
                       hn::MulAdd(sine, hn::Sub(zenith.z, horizon.z), horizon.z)};
         } else {
-            const SurfacePoint<V> point =
-                in.kind == ShadeInput::Kind::quadric ? on_quadric(d, in, column, ray) : on_plane(d, in, column);
+            const SurfacePoint<V> point = on_surface(d, in, column, ray);
             const FramePaint& paint = *in.paint;
             const V facing = hn::Max(zero, hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
             const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
             V intensity = lit;
-            if (paint.texture != nullptr) {
-                // How far the surface point moves from a column and from a row to the next: dP = k (e - d (N.e)/(N.d)).
-                const V against = dot(point.normal, ray);
-                const V least_against = hn::Mul(hn::Set(d, 1e-3F), hn::Div(length, point.inverse_length));
-                const V inverse = hn::Div(one, hn::Max(hn::Abs(against), least_against));
-                const V signed_inverse = hn::CopySign(inverse, against);
-                const V tilt_x = hn::Mul(dot(point.normal, ray_step), signed_inverse);
-                const V tilt_z = hn::Mul(dot(point.normal, along_row), signed_inverse);
-                const Vec3<V> dx{hn::NegMulAdd(tilt_x, ray.x, ray_step.x), hn::NegMulAdd(tilt_x, ray.y, ray_step.y),
-                                 hn::NegMulAdd(tilt_x, ray.z, ray_step.z)};
-                const Vec3<V> dz{hn::NegMulAdd(tilt_z, ray.x, along_row.x), hn::NegMulAdd(tilt_z, ray.y, along_row.y),
-                                 hn::NegMulAdd(tilt_z, ray.z, along_row.z)};
-                const V depth2 = hn::Mul(point.depth, point.depth);
-                const V in_x = hn::Mul(depth2, hn::MulAdd(dx.x, dx.x, hn::Mul(dz.x, dz.x)));
-                const V in_y = hn::Mul(depth2, hn::MulAdd(dx.y, dx.y, hn::Mul(dz.y, dz.y)));
-                const V in_z = hn::Mul(depth2, hn::MulAdd(dx.z, dx.z, hn::Mul(dz.z, dz.z)));
-                // Mean squares of the phase functions' slopes: pi/4 cos and pi u/2 cos.
-                const float u = paint.texture->vertical;
-                const V across = hn::Set(d, 0.30842514F), vertical = hn::Set(d, 1.2337006F * u * u);
-                const V up = hn::Mul(vertical, in_z);
-                const V footprint_x = hn::Add(in_x, hn::MulAdd(across, in_y, up));
-                const V footprint_y = hn::Add(in_y, hn::MulAdd(across, in_x, up));
-                const Vec3<V> p{hn::Mul(point.depth, ray.x), hn::Mul(point.depth, ray.y), hn::Mul(point.depth, ray.z)};
-                const TextureSample<V> t =
-                    paint.translucent ? texturing_function<true>(d, *paint.texture, p, footprint_x, footprint_y)
-                                      : texturing_function<false>(d, *paint.texture, p, footprint_x, footprint_y);
+            if (textured) {
+                const TextureSample<V> t = stride > 1 ? TextureSample<V>{hn::Load(d, block.value + in_block),
+                                                                         hn::Load(d, block.lost_variance + in_block)}
+                                                      : texture_at(d, in, point, ray, length);
                 intensity = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t.value, lit), lit);
                 if (paint.translucent) {
                     const V threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),

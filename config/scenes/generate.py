@@ -8,7 +8,7 @@ import math
 import pathlib
 import random
 
-from landscape import Range, cloud, ellipsoid, paint, perturbed, scene, scene_object, texture, tree
+from landscape import Range, cloud, copse, ellipsoid, heap_cloud, paint, perturbed, scene, scene_object, skyline, texture, tree
 from village import village
 
 # Where the Cessna's eye goes, east and north of the origin: round on the ground, off, and climbing to 95 m.
@@ -23,17 +23,17 @@ origin = { latitude = 29.7597, longitude = -95.1640, altitude = -0.6 }
 [sun]
 azimuth = 75.0
 elevation = 30.0
-ambient = 0.5
+ambient = 0.54
 [sky]
 horizon = [0.60, 0.71, 0.83]
 zenith = [0.12, 0.27, 0.60]
 [haze]
-visibility = 38000.0
+visibility = 42000.0
 colour = [0.60, 0.71, 0.83]
 [ground]
 colour = [0.30, 0.41, 0.14]
 texture = "grass"
-texture_weight = 0.72
+texture_weight = 0.62
 [[cloud_deck]]
 altitude = 3200.0
 colour = [1.0, 1.0, 1.0]
@@ -52,71 +52,89 @@ def distance_to_path(x, y, path):
     return nearest
 
 
+def climb_out(ahead, right):
+    """East and north of a place seen from where the recording ends, in metres ahead of the eye and to its right."""
+    heading = math.radians(199.5)
+    return (-472.0 + ahead * math.sin(heading) + right * math.cos(heading), -982.0 + ahead * math.cos(heading) - right * math.sin(heading))
+
+
 def takeoff():
     dice = random.Random(1984)
-    ahead = Range("ridge", 0.42, 480.0)
+    ridge = Range("ridge", 0.42, 480.0)
     for i in range(13):
         along = -2600.0 + 430.0 * i + dice.uniform(-120, 120)
         back = dice.uniform(-350, 350)
-        ahead.add(-1500.0 + along * 0.93 - back * 0.36, -4300.0 - along * 0.36 - back * 0.93, dice.uniform(150, 360))
+        ridge.add(-1500.0 + along * 0.93 - back * 0.36, -4300.0 - along * 0.36 - back * 0.93, dice.uniform(150, 360))
     west = Range("west-down", 0.3, 190.0)
     for i in range(11):
         west.add(-900.0 + dice.uniform(-500, 350), -650.0 + 190.0 * i + dice.uniform(-60, 60), dice.uniform(30, 95))
-    east = Range("east-down", 0.3, 170.0)
-    for i in range(8):
-        east.add(330.0 + 60.0 * i + dice.uniform(-160, 300), -1500.0 - 230.0 * i + dice.uniform(-90, 90), dice.uniform(25, 80))
+    downs = Range("down", 0.36, 230.0)  # on both sides of a valley that the climb-out looks along
+    for ahead, right, apex in [(420, -560, 48), (820, -640, 80), (1180, -1010, 115), (1320, -470, 62), (1750, -760, 122), (2080, -330, 84),
+                               (2300, -1180, 150), (2700, -620, 140), (620, 640, 66), (1010, 480, 54), (1330, 900, 118), (1600, 430, 70),
+                               (1950, 820, 128), (2250, 330, 92), (2500, 1150, 155), (2800, 620, 138), (2900, 0, 105)]:
+        x, y = climb_out(ahead + dice.uniform(-60, 60), right + dice.uniform(-50, 50))
+        downs.add(x, y, apex * dice.uniform(0.9, 1.1))
     far = Range("mountain", 0.62, 1300.0)
-    for i in range(16):
-        bearing = math.radians(145.0 + 11.0 * i + dice.uniform(-6, 6))
-        distance = dice.uniform(9000, 13000)
-        far.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(650, 1180))
-    ranges = [ahead, west, east, far]
+    for i in range(22):
+        bearing = math.radians(142.0 + 8.2 * i + dice.uniform(-5, 5))
+        distance = dice.uniform(8500, 13500)
+        far.add(distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(380, 1230))
+    near = [ridge, west, downs]
 
-    parts = [texture("grass", 330.0, 7, dice, step=2.25), texture("hillside", 260.0, 6, dice, 0.3), texture("rock", 1500.0, 6, dice, 0.3),
-             texture("foliage", 7.0, 6, dice, 0.75), texture("cumulus", 420.0, 6, dice, 0.6, (4.0, 1.0)),
-             texture("high-cloud", 9000.0, 6, dice, 0.0, (12.0, 5.0))]
-    parts += ahead.objects(dice, (0.40, 0.37, 0.18), "hillside", 0.65)
-    parts += west.objects(dice, (0.36, 0.42, 0.16), "hillside", 0.65)
-    parts += east.objects(dice, (0.42, 0.39, 0.19), "hillside", 0.65)
+    parts = [texture("grass", 330.0, 6, dice, step=2.6), texture("hillside", 260.0, 5, dice, 0.3), texture("rock", 1500.0, 5, dice, 0.3),
+             texture("foliage", 7.0, 5, dice, 0.75), texture("copse", 26.0, 4, dice, 0.75), texture("cumulus", 420.0, 5, dice, 0.6, (4.0, 1.0)),
+             texture("high-cloud", 9000.0, 5, dice, 0.0, (12.0, 5.0))]
+    # The grass goes on up the downs, in nearly its own colour: no seam where they rise.
+    parts += downs.objects(dice, (0.33, 0.42, 0.15), "grass", 0.6)
+    parts += west.objects(dice, (0.35, 0.42, 0.16), "grass", 0.6)
+    parts += ridge.objects(dice, (0.36, 0.38, 0.17), "hillside", 0.62)
     parts += far.objects(dice, (0.34, 0.36, 0.28), "rock", 0.55)
 
-    trees = []
+    woods = []
 
-    def plant(x, y, height):
+    def height(x, y):
+        return max(r.height(x, y) for r in near)
+
+    def plant(x, y, tall):
         clear = 34.0 if y > -300.0 else 60.0
-        if distance_to_path(x, y, TAKEOFF_PATH) < clear:
-            return
-        ground = max(r.height(x, y) for r in ranges[:3])
-        trees.append(tree(dice, f"tree-{len(trees) + 1}", x, y, ground, height))
+        if distance_to_path(x, y, TAKEOFF_PATH) > clear:
+            woods.append(tree(dice, f"tree-{len(woods) + 1}", x, y, height(x, y), tall))
 
-    def grove(x, y, spread, count, height):
+    def grove(x, y, spread, count, tall):
         for _ in range(count):
-            plant(x + dice.gauss(0, spread), y + dice.gauss(0, spread), height * dice.uniform(0.65, 1.3))
+            plant(x + dice.gauss(0, spread), y + dice.gauss(0, spread), tall * dice.uniform(0.65, 1.3))
 
-    for i in range(42):  # woods along both sides of the runway
-        t = dice.uniform(0.0, 1.0)
+    for i in range(22):  # woods along both sides of the runway
+        t = dice.uniform(0.0, 0.6)
         side = dice.choice((-1.0, 1.0))
-        px, py = -136.0 - 320.0 * t, -71.0 - 1000.0 * t
-        grove(px + side * dice.uniform(55, 140), py + dice.uniform(-40, 40), 24.0, 11, 10.0)
-    for i in range(14):  # round the apron
-        bearing = math.radians(dice.uniform(150, 390))
-        grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 26.0, 11, 9.0)
-    for i in range(44):  # out in the fields
-        grove(dice.uniform(-1300, 300), dice.uniform(-2600, -1000), 42.0, 11, 13.0)
-    for i in range(200):  # on the downs
-        hills = dice.choice((west, east))
-        x, y, _ = dice.choice(hills.hills)
-        plant(x + dice.gauss(0, 130), y + dice.gauss(0, 130), dice.uniform(7, 13))
-    for i in range(24):  # on the ridge's near side
-        x, y, _ = dice.choice(ahead.hills)
-        grove(x + dice.uniform(-100, 400), y + dice.uniform(100, 700), 70.0, 12, 17.0)
-    parts += trees
+        grove(-136.0 - 320.0 * t + side * dice.uniform(55, 140), -71.0 - 1000.0 * t + dice.uniform(-40, 40), 24.0, 10, 10.0)
+    for i in range(12):  # round the apron
+        bearing = math.radians(dice.uniform(190, 390))
+        grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 26.0, 10, 9.0)
+    for i in range(70):  # on the downs behind the apron
+        x, y, _ = dice.choice(west.hills)
+        plant(x + dice.gauss(0, 130), y + dice.gauss(0, 130), dice.uniform(8, 14))
+    for i in range(44):  # groves under the climb-out and along the valley
+        ahead = dice.uniform(-350.0, 1700.0)
+        side = dice.choice((-1.0, 1.0))
+        x, y = climb_out(ahead, side * (90.0 + dice.random() * (260.0 + 0.3 * max(0.0, ahead))))
+        grove(x, y, 26.0, 10, 13.0)
+    for i in range(100):  # single trees on the downs
+        x, y, _ = dice.choice(downs.hills)
+        plant(x + dice.gauss(0, 150), y + dice.gauss(0, 150), dice.uniform(10, 17))
+    for i in range(140):  # woods of the far downs and of the ridge's near side
+        x, y = climb_out(dice.uniform(1500, 3600), dice.uniform(-1800, 1800))
+        woods.append(copse(dice, f"copse-{i + 1}", x, y, height(x, y), dice.uniform(22, 60), dice.uniform(12, 17)))
+    parts += woods
 
-    for i in range(38):
-        bearing = math.radians(dice.uniform(140, 390))
-        distance = dice.uniform(2500, 12000)
-        parts.append(cloud(dice, f"cloud-{i + 1}", distance * math.sin(bearing), distance * math.cos(bearing),
-                           dice.uniform(700, 1500), dice.uniform(260, 650)))
+    for i in range(30):
+        bearing = math.radians(dice.uniform(160, 390))
+        distance = dice.uniform(4000, 11000)
+        x, y, base = distance * math.sin(bearing), distance * math.cos(bearing), dice.uniform(900, 1700)
+        size = dice.uniform(280, 560)
+        eyes = [(0.0, 0.0, 1.0), (-472.0, -982.0, 95.0)]
+        if all(skyline(eye, (x, y, base), 1.6 * size, near + [far]) for eye in eyes):
+            parts += heap_cloud(dice, f"cloud-{i + 1}", x, y, base, size, 3)
     return scene(TAKEOFF_HEADER, parts)
 
 

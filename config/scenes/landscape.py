@@ -126,28 +126,49 @@ class Range:
             yield scene_object(f"{self.name}-{i + 1}", shape, planes, paint(perturbed(random, colour, 0.12), texture_name, weight))
 
 
+def skyline(eye, centre, size, ranges):
+    """Whether a cloud of that size about `centre` is seen clear above every hill that an eye there has before or behind it."""
+    dx, dy = centre[0] - eye[0], centre[1] - eye[1]
+    distance = math.hypot(dx, dy)
+    low = math.atan2(centre[2] - 0.4 * size - eye[2], distance + size)
+    for hills in ranges:
+        for hill in hills.hills:
+            hx, hy = hill[0] - eye[0], hill[1] - eye[1]
+            away = math.hypot(hx, hy)
+            aside = abs(math.atan2(dx * hy - dy * hx, dx * hx + dy * hy))
+            if aside < math.atan2(size, distance) + math.atan2(0.7 * hills.foot(hill), away) and low < math.atan2(hill[2] - eye[2], away):
+                return False
+    return True
+
+
 def foliage(random):
     """Greens from olive to blue-green, a few of them turning."""
     kind = random.random()
-    if kind < 0.08:
-        base = (0.34, 0.27, 0.06)
+    if kind < 0.05:
+        base = (0.32, 0.27, 0.06)
     elif kind < 0.45:
         base = (0.17, 0.29, 0.06)
-    elif kind < 0.8:
-        base = (0.09, 0.27, 0.08)
+    elif kind < 0.85:
+        base = (0.10, 0.26, 0.07)
     else:
-        base = (0.06, 0.20, 0.11)
+        base = (0.07, 0.19, 0.09)
     return perturbed(random, base, 0.3)
 
 
 def tree(random, name, x, y, ground, height):
-    """A crown from just below the ground: its lowest part is lost in the limb's holes."""
-    wide = height * random.uniform(0.24, 0.42)
-    up = 0.5 * height
-    centre = (x, y, ground + up - 0.06 * height)
-    shape = ellipsoid(centre, (wide, wide * random.uniform(0.8, 1.1), up), random.uniform(0.0, 180.0))
-    translucence = (round(random.uniform(0.07, 0.12), 3), round(random.uniform(0.42, 0.6), 3), 0.08)
-    return scene_object(name, shape, [], paint(foliage(random), "foliage", 0.62, translucence))
+    """A crown whose lowest part lies in the ground: what is seen of it then stands on the ground, for all the holes at its limb."""
+    wide = height * random.uniform(0.3, 0.48)
+    up = 0.56 * height
+    shape = ellipsoid((x, y, ground + height - up), (wide, wide * random.uniform(0.8, 1.1), up), random.uniform(0.0, 180.0))
+    translucence = (round(random.uniform(0.05, 0.1), 3), round(random.uniform(0.36, 0.5), 3), 0.08)
+    return scene_object(name, shape, [], paint(foliage(random), "foliage", 0.55, translucence))
+
+
+def copse(random, name, x, y, ground, size, height):
+    """A whole wood as one ellipsoid, for where its trees would be a few pixels each."""
+    up = 1.15 * height
+    shape = ellipsoid((x, y, ground + height - up), (size, size * random.uniform(0.4, 0.8), up), random.uniform(0.0, 180.0))
+    return scene_object(name, shape, [], paint(foliage(random), "copse", 0.6, (0.08, 0.34, 0.08)))
 
 
 def cloud(random, name, x, y, base, size, flat_bottom=False):
@@ -156,6 +177,19 @@ def cloud(random, name, x, y, base, size, flat_bottom=False):
     planes = [[0.0, 0.0, 1.0, -round(base - 0.25 * semi_axes[2], 1)]] if flat_bottom else []
     white = random.uniform(0.93, 1.0)
     return scene_object(name, shape, planes, paint((white, white, white), "cumulus", 0.25, (0.1, 0.62, 0.14)))
+
+
+def heap_cloud(random, name, x, y, base, size, puffs):
+    """A cumulus as a cluster: one broad ellipsoid, and rounder ones that rise out of it."""
+    bearing = random.uniform(0.0, math.pi)
+    for i in range(puffs):
+        along, aside = (0.0, 0.0) if i == 0 else (random.uniform(-0.65, 0.65) * size, random.uniform(-0.25, 0.25) * size)
+        wide = size if i == 0 else size * random.uniform(0.35, 0.55)
+        up = size * 0.26 if i == 0 else wide * random.uniform(0.6, 0.85)
+        centre = (x + along * math.sin(bearing) + aside * math.cos(bearing), y + along * math.cos(bearing) - aside * math.sin(bearing),
+                  base if i == 0 else base + 0.12 * size)
+        shape = ellipsoid(centre, (wide * random.uniform(0.5, 0.75), wide, up), math.degrees(bearing))
+        yield scene_object(f"{name}-{i + 1}", shape, [], paint((1.0, 1.0, 1.0), "cumulus", 0.2, (0.06, 0.5, 0.16)))
 
 
 def scene(header, parts):

@@ -46,11 +46,11 @@ void scale_down(const FrameImage& from, const FrameImage& to) {
             for (int y = static_cast<int>(y0); y < y1; ++y)
                 for (int x = static_cast<int>(x0); x < x1; ++x) {
                     const double a = covered(x, x0, x1) * covered(y, y0, y1);
-                    const std::uint8_t* pixel = from.row(y) + 4 * x;
-                    for (std::size_t i = 0; i < 3; ++i) sum[i] += a * linear[pixel[i]];
+                    const std::uint8_t* source = pixel(from, y, x);
+                    for (std::size_t i = 0; i < 3; ++i) sum[i] += a * linear[source[i]];
                     area += a;
                 }
-            std::uint8_t* out = to.row(row) + 4 * column;
+            std::uint8_t* out = pixel(to, row, column);
             for (std::size_t i = 0; i < 3; ++i) out[i] = srgb_from_linear(sum[i] / area);
             out[3] = 255;
         }
@@ -73,7 +73,7 @@ bool ContactSheet::add(const FrameImage& picture) {
     const int top = gap_ + count_ / columns_ * (thumbnail_height_ + gap_);
     const int left = gap_ + count_ % columns_ * (thumbnail_width_ + gap_);
     const FrameImage page = page_.image();
-    scale_down(picture, {page.row(top) + 4 * left, thumbnail_width_, thumbnail_height_, page.row_bytes});
+    scale_down(picture, {pixel(page, top, left), thumbnail_width_, thumbnail_height_, page.row_bytes});
     ++count_;
     return true;
 }

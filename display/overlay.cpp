@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "display/channel.h"
+#include "display/picture.h"
 
 namespace quadrig::display {
 
@@ -65,7 +66,7 @@ OverlayLayer overlay_layer(const FrameImage& drawing, int row, int column, int w
     for (int r = 0; r < height; ++r) {
         bool in_run = false;
         for (int c = 0; c < width; ++c) {
-            const std::uint8_t* p = drawing.row(row + r) + 4 * (column + c);
+            const std::uint8_t* p = pixel(drawing, row + r, column + c);
             if (p[3] == 0) {
                 in_run = false;
                 continue;
@@ -88,7 +89,7 @@ void lay_over(const OverlayLayer& layer, const FrameImage& picture, int row, int
         const int end = std::min(picture.width, column + run.column + static_cast<int>(run.count));
         if (r < 0 || r >= picture.height || begin >= end) continue;
         const auto* source = layer.pixels.data() + run.first + static_cast<std::size_t>(begin - column - run.column);
-        std::uint8_t* out = picture.row(r) + 4 * begin;
+        std::uint8_t* out = pixel(picture, r, begin);
         if (run.opaque) {
             std::memcpy(out, source, 4 * static_cast<std::size_t>(end - begin));
             continue;

@@ -21,6 +21,11 @@ struct Picture {
     [[nodiscard]] FrameImage image() { return {pixels.data(), width, height, std::ptrdiff_t{4} * width}; }
 };
 
+/// The four bytes of a pixel.
+inline std::uint8_t* pixel(const FrameImage& image, int row, int column) {
+    return image.row(row) + std::ptrdiff_t{4} * column;
+}
+
 /// Copies the visible pixels. Both have one size.
 void copy_pixels(const FrameImage& from, const FrameImage& to);
 

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <semaphore.h>
-#include <time.h>
 
 #include <cerrno>
-#include <chrono>
 
 namespace quadrig::display {
 
@@ -24,15 +22,6 @@ class Semaphore {
     void take() {
         while (sem_wait(&semaphore_) != 0 && errno == EINTR) {
         }
-    }
-    /// False when none came in time, or a signal did.
-    bool take_within(std::chrono::nanoseconds time) {
-        timespec until{};
-        clock_gettime(CLOCK_MONOTONIC, &until);
-        const auto nanoseconds = until.tv_nsec + time.count() % 1'000'000'000;
-        until.tv_sec += time.count() / 1'000'000'000 + nanoseconds / 1'000'000'000;
-        until.tv_nsec = nanoseconds % 1'000'000'000;
-        return sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until) == 0;
     }
 
   private:

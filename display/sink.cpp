@@ -48,10 +48,11 @@ Sink::Sink(const std::string& url, std::unique_ptr<FrameWriter> writer, const Vi
 Sink::~Sink() { close(); }
 
 bool Sink::take_free_slot() {
-    if (free_.try_take()) return true;
-    if (when_full_ == WhenFull::drop) return false;
-    while (!free_.take_within(std::chrono::milliseconds(50)))
-        if (give_up_ && give_up_()) return false;
+    constexpr auto kPause = std::chrono::milliseconds(1);
+    while (!free_.try_take()) {
+        if (when_full_ == WhenFull::drop || (give_up_ && give_up_())) return false;
+        std::this_thread::sleep_for(kPause);
+    }
     return true;
 }
 

@@ -40,9 +40,8 @@ constexpr Weights kCr{fixed(0.5), -fixed(0.5) - fixed(-0.5 * kBlue / (1.0 - kRed
 
 /// One component of one row. The largest value, 255.5 before rounding, becomes 255.
 void convert_row(const std::uint8_t* rgba, int width, const Weights& w, std::uint8_t* out) {
-    for (int c = 0; c < width; ++c) {
-        const std::int32_t v =
-            (w.r * rgba[4 * c] + w.g * rgba[4 * c + 1] + w.b * rgba[4 * c + 2] + w.offset) >> kFractionBits;
+    for (int c = 0; c < width; ++c, rgba += 4) {
+        const std::int32_t v = (w.r * rgba[0] + w.g * rgba[1] + w.b * rgba[2] + w.offset) >> kFractionBits;
         out[c] = static_cast<std::uint8_t>(std::min(v, 255));
     }
 }

@@ -23,6 +23,7 @@ struct FrameRate {
 std::optional<FrameRate> frame_rate(double hertz);
 
 /// Time from frame 0 to frame k: k * denominator / numerator seconds, rounded down to a nanosecond, never added up.
+/// Good for 292 years.
 Time frame_time(const FrameRate& rate, std::uint64_t k);
 
 /// The first frame whose frame_time is `elapsed` or later.

@@ -38,7 +38,8 @@ void ArrivalGrid::observe(std::uint64_t sequence, Time arrival) {
     if (count_ < 2) return;
     fit();
     const Time move = expected + held_back_ - on_line(next.sequence);
-    held_back_ = was_settled ? Time(std::llround((1.0 - kYield) * static_cast<double>(move.count()))) : Time{};
+    const double yield = std::max(kYield, 3.0 / static_cast<double>(count_));
+    held_back_ = was_settled ? Time(std::llround((1.0 - yield) * static_cast<double>(move.count()))) : Time{};
 }
 
 bool ArrivalGrid::settled() const { return count_ >= 2 && point(count_ - 1).arrival - point(0).arrival >= kSettling; }

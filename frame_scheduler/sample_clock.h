@@ -32,8 +32,9 @@ class LeastDelay {
 /// The times at which a host of a steady period would have been heard without jitter: the straight line of arrival over
 /// sequence number that lies below all of the last kWindow arrivals and as close to them as it can. It is the edge of
 /// their lower convex hull over their mean sequence number. Late packets lie above and do not move it; a sample
-/// lost on the way moves it by a period. What it moves by is let in by kYield a sample, so that nothing jumps.
-/// Source: Moon, Skelly, Towsley, "Estimation and Removal of Clock Skew from Network Delay Measurements", INFOCOM 1999.
+/// lost on the way moves it by a period. Of what it moves by, kYield is let in a sample, or more while the line rests
+/// on few, so that nothing jumps. Source: Moon, Skelly, Towsley, "Estimation and Removal of Clock Skew from Network
+/// Delay Measurements", INFOCOM 1999.
 class ArrivalGrid {
   public:
     void observe(std::uint64_t sequence, Time arrival);

@@ -125,7 +125,7 @@ TEST_CASE("Scaling down takes the mean in linear light by covered area") {
         for (std::size_t i = 0; i < 3; ++i) black_and_white.pixels[4 * static_cast<std::size_t>(pixel) + i] = 255;
     scale_down(black_and_white.image(), out.image());
     // Half the light of white is sRGB 187.5 (IEC 61966-2-1).
-    for (const std::size_t i : {0, 1, 2, 4, 5, 6}) CHECK(out.pixels[i] == 188);
+    for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U}) CHECK(out.pixels[i] == 188);
     CHECK(out.pixels[3] == 255);
 
     Picture thirds(3, 1), one(2, 1);

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "display/contact_sheet_sink.h"
 #include "display/png_file.h"
 #include "display/png_sink.h"
 #include "display/y4m_sink.h"
@@ -60,14 +61,14 @@ class SlowWriter : public FrameWriter {
 TEST_CASE("A slow sink in real time loses frames, counts them, never waits and never shows a torn picture") {
     std::vector<std::uint64_t> seen;
     Picture picture(320, 200);
-    Sink sink("test:", std::make_unique<SlowWriter>(seen, 5ms), {320, 200}, WhenFull::drop, 3);
+    Sink sink("test:", std::make_unique<SlowWriter>(seen, 20ms), {320, 200}, WhenFull::drop, 3);
     std::uint64_t accepted = 0;
-    std::chrono::nanoseconds longest{0};
+    int waited = 0;  // as long as the sink takes for half a frame
     for (std::uint64_t k = 0; k < 100; ++k) {
         test::fill(picture.image(), static_cast<std::uint8_t>(k), 0, 0);
         const auto start = std::chrono::steady_clock::now();
         accepted += sink.hand_over(picture.image(), k);
-        longest = std::max(longest, std::chrono::nanoseconds(std::chrono::steady_clock::now() - start));
+        waited += std::chrono::steady_clock::now() - start > 10ms;
         std::this_thread::sleep_for(1ms);
     }
     const SinkStatus status = sink.close();
@@ -78,7 +79,7 @@ TEST_CASE("A slow sink in real time loses frames, counts them, never waits and n
     CHECK(status.dropped > 30);
     CHECK(status.failed == 0);
     CHECK(std::is_sorted(seen.begin(), seen.end()));
-    CHECK(longest < 50ms);
+    CHECK(waited < 20);  // the machine may have other things to do now and then
 }
 
 TEST_CASE("Where no frame may be lost the producer waits for the sink, and gives up when asked to") {
@@ -255,4 +256,29 @@ TEST_CASE("A y4m reader that stops reading cannot keep the sink from closing") {
     CHECK_THAT(status.error, Catch::Contains("stopped reading"));
     CHECK(status.dropped > 0);
     close(reader);
+}
+
+TEST_CASE("A contact sheet of a run of any length shows frames evenly spaced from the first on") {
+    const test::TemporaryDirectory directory;
+    const auto path = directory.path() / "sheet.png";
+    const VideoFormat format{40, 20};
+    for (const int frames : {1, 5, 36, 37, 100, 250}) {
+        Sink sink("sheet", std::make_unique<ContactSheetWriter>(path, format), format, WhenFull::wait);
+        Picture picture(40, 20);
+        for (int k = 0; k < frames; ++k) {
+            test::fill(picture.image(), static_cast<std::uint8_t>(k), 100, 200);
+            sink.hand_over(picture.image(), static_cast<std::uint64_t>(k));
+        }
+        REQUIRE(sink.close().error.empty());
+        int stride = 1;
+        while ((frames + stride - 1) / stride > ContactSheetWriter::kMost) stride *= 2;
+        const int count = (frames + stride - 1) / stride;
+        Picture page = read_png(path);
+        INFO(frames << " frames, every " << stride);
+        CHECK(page.width == std::min(6, count) * 44 + 4);
+        CHECK(page.height == (count + 5) / 6 * 24 + 4);
+        for (int i = 0; i < count; ++i)
+            CHECK(pixel(page.image(), 4 + i / 6 * 24 + 10, 4 + i % 6 * 44 + 20)[0] == i * stride);
+    }
+    CHECK_THROWS_WITH(ContactSheetWriter(directory.path() / "no" / "sheet.png", format), Catch::Contains("sheet.png"));
 }

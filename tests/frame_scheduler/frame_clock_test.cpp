@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 TEST_CASE("Deadlines of a rational rate do not drift: after every whole number of seconds they are exact") {
     for (const auto& rate : {FrameRate{60, 1}, FrameRate{60000, 1001}, FrameRate{24000, 1001}, FrameRate{59333, 1000}})
-        for (const std::uint64_t hours : {1U, 24U, 8760U}) {
+        for (const std::uint64_t hours : {1U, 24U, 1000U}) {
             const std::uint64_t frames = hours * 3600 * static_cast<std::uint64_t>(rate.numerator);
             CHECK(frame_time(rate, frames) ==
                   std::chrono::seconds(hours * 3600 * static_cast<unsigned>(rate.denominator)));

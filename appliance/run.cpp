@@ -109,7 +109,7 @@ void run(const LiveOptions& options) {
                      display::WhenFull::drop,
                      {},
                      most_frames,
-                     {}});
+                     options.contact_sheet});
     for (const auto& host : hosts) {
         host->eye.emplace(
             HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});

@@ -27,6 +27,8 @@ void add_host_options(CLI::App& command, RunOptions& options) {
                     "Where pictures go: png:DIRECTORY, y4m:FILE (y4m:- is standard\n"
                     "output), none:. May be given again (default: nowhere)",
                     "URL");
+    command.add_option("--contact-sheet", options.contact_sheet, "Write a page of evenly spaced frames")
+        ->option_text("FILE.png");
     add_option(command, "--fov", settings.fov, read_field_of_view, "Horizontal field of view, degrees (default 60)",
                "DEG");
     command.add_flag("--ignore-host-window", options.ignore_host_window,

@@ -15,14 +15,14 @@ struct RunOptions {
     config::ApplianceSettings settings;
     std::optional<std::uint64_t> frames;
     std::optional<scheduler::Time> duration;
-    std::filesystem::path report;  ///< empty: none
+    std::filesystem::path report, contact_sheet;  ///< empty: none
     bool overlay = false;
     bool ignore_host_window = false;
 };
 
 /// --size, --rate, --threads, --quality, --report.
 void add_picture_options(CLI::App& command, RunOptions& options);
-/// --scene, --link, --sink, --fov, --frames, --seconds, --overlay, --ignore-host-window.
+/// --scene, --sink, --contact-sheet, --fov, --ignore-host-window, --overlay, --frames, --seconds.
 void add_host_options(CLI::App& command, RunOptions& options);
 
 /// What draws: settings with their defaults in place of what is absent.

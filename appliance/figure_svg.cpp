@@ -27,10 +27,10 @@ struct MarkStyle {
     const char* path;  ///< about the key point
 };
 constexpr std::array<MarkStyle, 5> kMarks{
-    {{"limb-extremum", "limb extremum", "limb extrema", "M0-6.2 5.4 4H-5.4z"},
-     {"curve-extremum", "curve extremum", "curve extrema", "M0-5.8 5.8 0 0 5.8-5.8 0z"},
-     {"contact", "contact point", "contact points", "M4.6 0A4.6 4.6 0 1 1-4.6 0 4.6 4.6 0 1 1 4.6 0z"},
-     {"intersection", "intersection point", "intersection points", "M-4.3-4.3H4.3V4.3H-4.3z"},
+    {{"limb-extremum", "limb extremum", "limb extrema", "M0-5.4 4.8 3.5H-4.8z"},
+     {"curve-extremum", "curve extremum", "curve extrema", "M0-5 5 0 0 5-5 0z"},
+     {"contact", "contact point", "contact points", "M4 0A4 4 0 1 1-4 0 4 4 0 1 1 4 0z"},
+     {"intersection", "intersection point", "intersection points", "M-3.7-3.7H3.7V3.7H-3.7z"},
      {"triplet", "triplet point", "triplet points",
       "M0-7 1.8-2.2 6.7-2.2 2.9.9 4.1 5.7 0 3-4.1 5.7-2.9.9-6.7-2.2-1.8-2.2z"}}};
 

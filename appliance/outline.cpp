@@ -19,6 +19,8 @@ namespace {
 
 /// What of its panel an object fills where the eye is placed for it: the rest is for curves and lines that go on.
 constexpr double kFilled = 0.8;
+/// Pixels of the shaded picture for one of the panel's, so that it stays sharp on fine screens.
+constexpr int kPictureScale = 2;
 constexpr Colour kPaper{1.0};
 
 struct OutlineOptions {
@@ -40,8 +42,12 @@ const Object& object_named(const Scene& scene, const std::string& name, const st
                              (names.empty() ? "none has a name" : "there are: " + names));
 }
 
+glm::dvec3 attitude_of(const OutlineOptions& options) {
+    return options.attitude.value_or(glm::dvec3(30.0, -20.0, 0.0));
+}
+
 View view_of(const OutlineOptions& options, const Object& object, const Solid& solid) {
-    const glm::dvec3 angles = options.attitude.value_or(glm::dvec3(30.0, -20.0, 0.0));
+    const glm::dvec3 angles = attitude_of(options);
     View view{{},
               eye_from_scene_rotation({{angles.x}, {angles.y}, {angles.z}}),
               ImagePlane::symmetric(options.size.width, options.size.height, options.fov)};
@@ -56,30 +62,32 @@ View view_of(const OutlineOptions& options, const Object& object, const Solid& s
 }
 
 /// The object by itself, on paper.
-std::string shaded(const Scene& scene, const Object& object, const View& view) {
+std::string shaded(const Scene& scene, const Object& object, const View& view, const OutlineOptions& options) {
     Scene alone;
     alone.origin = scene.origin;
     alone.sun = scene.sun;
     alone.sky = {kPaper, kPaper};
     alone.textures = scene.textures;
     alone.objects = {object};
-    display::Picture picture(view.image.width, view.image.height);
-    ImageGenerator(std::move(alone)).render(view, {}, config::kQualityPresets.back().quality, picture.image());
+    View fine = view;
+    fine.image =
+        ImagePlane::symmetric(kPictureScale * options.size.width, kPictureScale * options.size.height, options.fov);
+    display::Picture picture(fine.image.width, fine.image.height);
+    ImageGenerator(std::move(alone)).render(fine, {}, config::kQualityPresets.back().quality, picture.image());
     return display::png_bytes(picture.image());
 }
 
 std::string subtitle(const Object& object, const OutlineOptions& options, const View& view) {
-    const Attitude attitude = attitude_of(view.eye_from_scene);
     const auto kind = [](const auto& shape) {
         using Shape = std::decay_t<decltype(shape)>;
         return std::is_same_v<Shape, Ellipsoid> ? "ellipsoid" : std::is_same_v<Shape, Hill> ? "hill" : "quadric";
     };
+    const glm::dvec3 angles = attitude_of(options);
     std::ostringstream text;
     text << std::visit(kind, object.shape) << " with " << object.planes.size()
          << (object.planes.size() == 1 ? " bounding plane" : " bounding planes") << " from " << view.eye.metres.x
-         << ", " << view.eye.metres.y << ", " << view.eye.metres.z << " m; heading " << attitude.heading.value
-         << "\u00b0, pitch " << attitude.pitch.value << "\u00b0, roll " << attitude.roll.value
-         << "\u00b0; field of view " << options.fov.value << "\u00b0";
+         << ", " << view.eye.metres.y << ", " << view.eye.metres.z << " m; heading " << angles.x << "\u00b0, pitch "
+         << angles.y << "\u00b0, roll " << angles.z << "\u00b0; field of view " << options.fov.value << "\u00b0";
     return text.str();
 }
 
@@ -90,7 +98,7 @@ FigureRow row_of(const Scene& scene, const Object& object, const OutlineOptions&
     return {object.name, subtitle(object, options, view),
             make_figure(solid, view.eye, view.eye_from_scene,
                         {image.left, image.x(image.width), image.z(image.height), image.top}),
-            shaded(scene, object, view)};
+            shaded(scene, object, view, options)};
 }
 
 void outline(const OutlineOptions& options) {

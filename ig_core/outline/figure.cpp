@@ -11,7 +11,7 @@ namespace {
 /// Rows of the grid that an outline is asked for: many more than any drawing has, so that no band falls between two.
 constexpr int kRows = 1 << 24;
 /// Of the window's width: key points closer than this are one.
-constexpr double kSamePoint = 1e-6;
+constexpr double kSamePoint = 1e-9;
 /// A point whose form is this small beside its terms lies on the curve.
 constexpr double kOnCurve = 1e-7;
 
@@ -39,7 +39,7 @@ std::vector<Polyline> whole_curve(const Outline& outline, std::size_t curve, con
         for (const auto kind : {Boundary::Kind::rising, Boundary::Kind::falling}) {
             const Boundary side{kind, static_cast<std::uint16_t>(curve)};
             const auto x_at = [&](double z) {
-                const double zeta = z - z0, xi = intercept(outline, side, zeta);
+                const double zeta = z - z0, xi = drawn_intercept(outline, side, zeta);
                 return behind(glm::dvec3(xi, 1.0, zeta)) ? std::numeric_limits<double>::quiet_NaN() : x0 + xi;
             };
             const double tolerance = kFigureTolerance * window.width();
@@ -121,11 +121,21 @@ FigureKeyPoint::Kind kind_of(const Outline& outline, const KeyPoint& key) {
     return on_quadric ? FigureKeyPoint::Kind::intersection : FigureKeyPoint::Kind::triplet;
 }
 
-std::vector<FigureKeyPoint> find_key_points_in(const Outline& outline, const ImageWindow& window) {
+bool is_on(const std::vector<VisibleSegment>& segments, const glm::dvec2& p, double tolerance) {
+    return std::any_of(segments.begin(), segments.end(), [&](const VisibleSegment& segment) {
+        return std::any_of(segment.pieces.begin(), segment.pieces.end(),
+                           [&](const Polyline& piece) { return distance(p, piece) < tolerance; });
+    });
+}
+
+std::vector<FigureKeyPoint> find_visible_key_points(const Outline& outline, const std::vector<VisibleSegment>& segments,
+                                                    const ImageWindow& window) {
     std::vector<FigureKeyPoint> points;
     const auto add = [&](FigureKeyPoint::Kind kind, double xi, double zeta) {
         const glm::dvec2 at(outline.solid.x0 + xi, outline.solid.z0 + zeta);
         if (at.x < window.x_from || at.x > window.x_to || at.y < window.z_from || at.y > window.z_to) return;
+        // An outline may keep one that is out of sight.
+        if (!is_on(segments, at, kFigureTolerance * window.width())) return;
         const bool known = std::any_of(points.begin(), points.end(), [&](const FigureKeyPoint& other) {
             return other.kind == kind && glm::distance(other.at, at) < kSamePoint * window.width();
         });
@@ -136,6 +146,12 @@ std::vector<FigureKeyPoint> find_key_points_in(const Outline& outline, const Ima
         for (const double zeta : {outline.zeta_from, outline.zeta_to})
             add(FigureKeyPoint::Kind::limb_extremum, -outline.curves[0].beta_at(zeta) / outline.curves[0].alpha, zeta);
     return points;
+}
+
+bool is_key_height(const Figure& figure, double z) {
+    return std::any_of(figure.key_points.begin(), figure.key_points.end(), [&](const FigureKeyPoint& key) {
+        return std::abs(key.at.y - z) <= kSamePoint * figure.window.height();
+    });
 }
 
 }  // namespace
@@ -150,9 +166,14 @@ Figure make_figure(const Solid& solid, const ScenePoint& eye, const glm::dmat3& 
     figure.solved_by_row = outline.direct;
     figure.strokes = find_strokes(outline, seen, window);
     figure.segments = visible_segments(outline, seen, window);
-    figure.key_points = find_key_points_in(outline, window);
-    for (const SeenBand& band : seen)
-        figure.bands.push_back({outline.solid.z0 + band.zeta_from, outline.solid.z0 + band.zeta_to});
+    figure.key_points = find_visible_key_points(outline, figure.segments, window);
+    for (const SeenBand& band : seen) {
+        const double from = outline.solid.z0 + band.zeta_from, to = outline.solid.z0 + band.zeta_to;
+        if (figure.bands.empty() || outline.direct || is_key_height(figure, from))
+            figure.bands.push_back({from, to});
+        else
+            figure.bands.back().z_to = to;
+    }
     return figure;
 }
 

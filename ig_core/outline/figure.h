@@ -12,7 +12,7 @@
 
 namespace quadrig {
 
-inline constexpr double kFigureTolerance = 1e-4;
+inline constexpr double kFigureTolerance = 2e-4;
 
 enum class StrokeKind { limb, intersection_curve, visibility_line, intersection_line };
 
@@ -39,6 +39,7 @@ struct FigureKeyPoint {
     glm::dvec2 at{0.0};
 };
 
+/// Rows over which nothing changes in the window but where boundaries are: from one key point's height to the next.
 struct FigureBand {
     double z_from = 0, z_to = 0;
 };

@@ -13,8 +13,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRows = 256;
 constexpr double kChange = 1e-12;
 /// Of the window's width: level boundaries shorter than this are rounding, and lines this close are one.
-constexpr double kLevel = 1e-5;
-/// Of the window's height: bands further apart have nothing between them.
+constexpr double kLevel = 1e-4;
+/// Of the window's height: bands further apart have nothing between them, and thinner ones are rounding.
 constexpr double kGap = 1e-5;
 
 /// Which boundary a cut's end was, by the nearest of all candidates.
@@ -81,6 +81,10 @@ std::vector<SeenBand> bands_by_row(const Outline& outline, double zeta_low, doub
         last = std::move(next);
     }
     changes.push_back(zeta_high);
+    // About a contact the two curves are one to within rounding, and each may be named in turn.
+    const double thin = kGap * (zeta_high - zeta_low);
+    changes.erase(std::unique(changes.begin(), changes.end() - 1, [&](double a, double b) { return b - a < thin; }),
+                  changes.end() - 1);
     std::vector<SeenBand> bands;
     for (std::size_t i = 1; i < changes.size(); ++i) {
         SeenBand band = look_at_row(outline, 0.5 * (changes[i - 1] + changes[i]));
@@ -98,7 +102,8 @@ std::vector<Crossing> crossings(const Outline& outline, const SeenBand* band, do
     std::vector<Crossing> all{{-kInfinity, kNoSurface}};
     if (band != nullptr)
         for (std::size_t i = 0; i < band->boundaries.size(); ++i)
-            all.push_back({std::max(all.back().xi, intercept(outline, band->boundaries[i], zeta)), band->surfaces[i]});
+            all.push_back(
+                {std::max(all.back().xi, drawn_intercept(outline, band->boundaries[i], zeta)), band->surfaces[i]});
     return all;
 }
 int surface_in(const std::vector<Crossing>& crossings, double xi) {
@@ -139,7 +144,7 @@ void add_segment(const Outline& outline, const SeenBand& band, std::size_t i, co
                  std::vector<VisibleSegment>& segments) {
     const Boundary& boundary = band.boundaries[i];
     const double x0 = outline.solid.x0, z0 = outline.solid.z0;
-    const auto x_at = [&](double z) { return x0 + intercept(outline, boundary, z - z0); };
+    const auto x_at = [&](double z) { return x0 + drawn_intercept(outline, boundary, z - z0); };
     const double from = z0 + band.zeta_from, to = z0 + band.zeta_to;
     VisibleSegment segment;
     segment.left = i > 0 ? band.surfaces[i - 1] : kNoSurface;
@@ -156,6 +161,19 @@ void add_segment(const Outline& outline, const SeenBand& band, std::size_t i, co
 }
 
 }  // namespace
+
+double drawn_intercept(const Outline& outline, const Boundary& boundary, double zeta) {
+    const bool rising = boundary.kind == Boundary::Kind::rising;
+    if (!rising && boundary.kind != Boundary::Kind::falling) return intercept(outline, boundary, zeta);
+    const RowConic& conic = outline.curves[boundary.index];
+    const double beta = conic.beta_at(zeta), root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta)));
+    // The quotient gamma / (|beta| + root) carries the rounding of gamma's terms over that sum, (-beta +- root) / alpha
+    // that of the sum over alpha.
+    const double sum = std::abs(beta) + root, terms = std::abs(conic.gamma[0]) + std::abs(zeta * conic.gamma[1]) +
+                                                      std::abs(zeta * zeta * conic.gamma[2]);
+    if (sum * sum > terms * std::abs(conic.alpha)) return intercept(outline, boundary, zeta);
+    return (rising ? root - beta : -(root + beta)) / conic.alpha;
+}
 
 std::vector<SeenBand> bands_in_window(const Outline& outline, const ImageWindow& window) {
     const double low = window.z_from - outline.solid.z0, high = window.z_to - outline.solid.z0;

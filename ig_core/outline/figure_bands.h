@@ -6,6 +6,9 @@
 
 namespace quadrig {
 
+/// `intercept`, but exact to rounding also at a curve's extremum, where that may be nought by nought.
+double drawn_intercept(const Outline& outline, const Boundary& boundary, double zeta);
+
 /// A z-band with its boundaries from left to right, `surfaces[i]` to the right of `boundaries[i]`. Never without one.
 struct SeenBand {
     double zeta_from = 0, zeta_to = 0;
@@ -14,7 +17,7 @@ struct SeenBand {
 };
 
 /// The outline's own bands; for one that is nothing but a limb, the rows that it spans; for one that is solved row by
-/// row, the rows between which the order of its boundaries changes.
+/// row, those between which the order of its boundaries changes.
 std::vector<SeenBand> bands_in_window(const Outline& outline, const ImageWindow& window);
 
 /// The boundaries of every band, and the level ones that lie between two bands.

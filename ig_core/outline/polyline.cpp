@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 /// Chords to begin with, so that no wave falls between two of them, and how often each may be halved.
 constexpr int kFirstChords = 8;
 constexpr int kMostHalvings = 14;
+/// Of the tolerance: how closely in z the begin or end of a gap is found.
+constexpr double kClosest = 1e-3;
 
 bool is_point(const glm::dvec2& p) { return std::isfinite(p.x); }
 
@@ -71,9 +74,10 @@ class Follower {
 
     [[nodiscard]] bool needed(const glm::dvec2& a, const glm::dvec2& p, const glm::dvec2& b) const {
         const int points = is_point(a) + is_point(p) + is_point(b);
-        if (points < 3) return points > 0;
+        if (points < 3) return points > 0 && b.y - a.y > kClosest * tolerance_;
         const double left = std::min({a.x, p.x, b.x}), right = std::max({a.x, p.x, b.x});
-        return left <= window_.x_to && right >= window_.x_from && distance_from_chord(p, a, b) > tolerance_;
+        return left <= window_.x_to && right >= window_.x_from &&
+               2.0 * distance_from_chord(p, a, b) > tolerance_;  // not all stray most in the middle
     }
 
     double z_from_, z_to_;
@@ -110,6 +114,13 @@ Inside inside_window(const glm::dvec2& a, const glm::dvec2& b, const ImageWindow
 std::vector<Polyline> follow(double z_from, double z_to, const std::function<double(double)>& x_at,
                              const ImageWindow& window, double tolerance) {
     return Follower(z_from, z_to, x_at, window, tolerance).run();
+}
+
+double distance(const glm::dvec2& p, const Polyline& path) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < path.size(); ++i)
+        nearest = std::min(nearest, distance_from_chord(p, path[i - 1], path[i]));
+    return nearest;
 }
 
 std::vector<Polyline> clip(const Polyline& path, const ImageWindow& window) {

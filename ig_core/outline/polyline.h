@@ -25,6 +25,9 @@ struct ImageWindow {
 std::vector<Polyline> follow(double z_from, double z_to, const std::function<double(double)>& x_at,
                              const ImageWindow& window, double tolerance);
 
+/// From a point to the nearest of a polyline; infinite for one without chords.
+double distance(const glm::dvec2& p, const Polyline& path);
+
 /// What of a polyline lies inside the window.
 std::vector<Polyline> clip(const Polyline& path, const ImageWindow& window);
 

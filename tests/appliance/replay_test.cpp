@@ -180,7 +180,7 @@ TEST_CASE("A contact sheet shows up to 36 frames of the run, evenly spaced") {
         const auto sheet = display::read_png(file);
         CHECK(sheet.width == columns * 164 + 4);
         CHECK(sheet.height == rows * 94 + 4);
-        const auto blue = [&](int i) {
+        const auto blue = [&sheet, columns = columns](int i) {
             const int row = 4 + i / columns * 94 + 10, column = 4 + i % columns * 164 + 80;
             return sheet.pixels.at(static_cast<std::size_t>(4 * (row * sheet.width + column)) + 2);
         };

@@ -148,7 +148,8 @@ TEST_CASE("A CIGI host gets Start Of Frame back, every frame, and is answered wi
         REQUIRE(bytes.size() == host::cigi::StartOfFrame::kSize);
         CHECK(bytes[0] == std::byte{101});
         replies.push_back(host::cigi::decode<host::cigi::StartOfFrame>(bytes, host::ByteOrder::big));
-        host.send(cigi_message(++host_frame, {14.0 + host_frame, {}}));
+        ++host_frame;
+        host.send(cigi_message(host_frame, {14.0 + host_frame, {}}));
     }
     program.signal(SIGINT);
     const Outcome outcome = program.wait();

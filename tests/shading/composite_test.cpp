@@ -1,0 +1,114 @@
+#include <catch2/catch.hpp>
+
+#include "ig_core/shading/shade.h"
+#include "tests/ig_core/simd_targets.h"
+
+using namespace quadrig;
+using namespace quadrig::test;
+
+namespace {
+
+struct Sample {
+    float red, green, blue, opacity;
+};
+
+ShadeBuffer buffer_of(const std::vector<Sample>& samples) {
+    ShadeBuffer buffer;
+    buffer.resize(samples.size() + kShadePadding);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        buffer.red[i] = samples[i].red, buffer.green[i] = samples[i].green;
+        buffer.blue[i] = samples[i].blue, buffer.opacity[i] = samples[i].opacity;
+    }
+    return buffer;
+}
+
+RowSpan span_of(std::vector<std::pair<double, double>> lines) {
+    RowSpan span;
+    span.from.fill(0), span.to.fill(0);
+    for (std::size_t i = 0; i < lines.size(); ++i) span.from[i] = lines[i].first, span.to[i] = lines[i].second;
+    return span;
+}
+
+template <class Test>
+void on_every_target(Test&& test) {
+    for (const std::int64_t target : simd_targets()) {
+        const SimdTarget held(target);
+        CAPTURE(hwy::TargetName(target));
+        test();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("layers of whole pixels: each covers by its opacity what the ones in front let through") {
+    on_every_target([] {
+        // Three layers of two pixels: 0.25 + 0.75 (0.5 + 0.5 rest), and an opaque front.
+        const ShadeBuffer buffer = buffer_of({{1, 0, 0, 0.25F},
+                                              {0.9F, 0.8F, 0.7F, 1},  //
+                                              {0, 1, 0, 0.5F},
+                                              {0, 0, 0, 1},  //
+                                              {0, 0, 1, 1},
+                                              {1, 1, 1, 1}});
+        ShadeBuffer row;
+        row.resize(8 + kShadePadding);
+        const std::vector<std::uint32_t> samples{0, 2, 4};
+        composite_whole(buffer, samples, 2, row, 3);
+        CHECK(row.red[3] == Approx(0.25));
+        CHECK(row.green[3] == Approx(0.375));
+        CHECK(row.blue[3] == Approx(0.375));
+        CHECK(row.red[4] == Approx(0.9));
+        CHECK(row.green[4] == Approx(0.8));
+        CHECK(row.blue[4] == Approx(0.7));
+    });
+}
+
+TEST_CASE("a pixel covered in part shows what lies behind for the rest") {
+    on_every_target([] {
+        const ShadeBuffer buffer = buffer_of({{1, 0, 0, 1}, {0, 0, 1, 1}});
+        ShadeBuffer row;
+        row.resize(8 + kShadePadding);
+        const RowSpan sky = span_of({{0, 8}, {0, 8}, {0, 8}, {0, 8}});
+        const auto red_share = [&](const RowSpan& span, int lines) {
+            const std::vector<PartialLayer> layers{{0, 0, &span}, {1, 99, &sky}};
+            composite_partial(buffer, layers, 5, lines, row);
+            CHECK(row.red[5] + row.blue[5] == Approx(1).epsilon(1e-6));
+            return row.red[5];
+        };
+        CHECK(red_share(span_of({{5.5, 8}, {5.5, 8}, {5.5, 8}, {5.5, 8}}), 4) == Approx(0.5));
+        CHECK(red_share(span_of({{2, 5.3}, {2, 5.3}, {2, 5.3}, {2, 5.3}}), 4) == Approx(0.3));
+        CHECK(red_share(span_of({{5.1, 5.3}, {0, 0}, {5.9, 6.5}, {4, 8}}), 4) == Approx((0.2 + 0 + 0.1 + 1) / 4));
+        CHECK(red_share(span_of({{5.25, 5.5}}), 1) == Approx(0.25));
+        CHECK(red_share(span_of({{5, 6}, {7, 8}}), 2) == Approx(0.5));
+        CHECK(red_share(span_of({{5.6, 8}, {5.4, 8}, {5.2, 8}, {5, 8}, {4.8, 8}, {4, 8}, {3, 8}, {2, 8}}), 8) ==
+              Approx((0.4 + 0.6 + 0.8 + 5) / 8));
+    });
+}
+
+TEST_CASE("surfaces of one object that meet within a pixel leave nothing of the background between them") {
+    on_every_target([] {
+        const ShadeBuffer buffer = buffer_of({{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}});
+        ShadeBuffer row;
+        row.resize(8 + kShadePadding);
+        const RowSpan left = span_of({{0, 2.375}, {0, 2.5}}), right = span_of({{2.375, 8}, {2.5, 8}}),
+                      sky = span_of({{0, 8}, {0, 8}});
+        const std::vector<PartialLayer> layers{{0, 7, &left}, {1, 7, &right}, {2, 99, &sky}};
+        composite_partial(buffer, layers, 2, 2, row);
+        CHECK(row.red[2] == Approx(0.4375));
+        CHECK(row.green[2] == Approx(0.5625));
+        CHECK(row.blue[2] == Approx(0).margin(1e-6));
+    });
+}
+
+TEST_CASE("a translucent edge lets its own share through and no more") {
+    on_every_target([] {
+        const ShadeBuffer buffer = buffer_of({{1, 0, 0, 0.5F}, {0, 1, 0, 0.5F}, {0, 0, 1, 1}});
+        ShadeBuffer row;
+        row.resize(8 + kShadePadding);
+        const RowSpan front = span_of({{3.5, 8}, {3.5, 8}}), all = span_of({{0, 8}, {0, 8}});
+        const std::vector<PartialLayer> layers{{0, 1, &front}, {1, 2, &all}, {2, 99, &all}};
+        composite_partial(buffer, layers, 3, 2, row);
+        CHECK(row.red[3] == Approx(0.25));
+        CHECK(row.green[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
+        CHECK(row.blue[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
+    });
+}

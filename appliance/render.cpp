@@ -107,7 +107,7 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::Range(1, 64))
         ->needs(reference)
         ->option_text("N");
-    add_option(command, "--quality", options->quality, read_quality, "draft, default or best (default: default)",
+    add_option(command, "--quality", options->quality, read_quality, "draft, default, fine or best (default: default)",
                "NAME")
         ->excludes(reference);
     command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")

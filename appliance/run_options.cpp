@@ -14,7 +14,7 @@ void add_picture_options(CLI::App& command, RunOptions& options) {
     command.add_option("--threads", settings.threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))
         ->option_text("N");
-    add_option(command, "--quality", settings.quality, read_quality, "draft, default or best (default: default)",
+    add_option(command, "--quality", settings.quality, read_quality, "draft, default, fine or best (default: default)",
                "NAME");
     command.add_option("--report", options.report, "Write the run's report to a file, as JSON")
         ->option_text("FILE.json");

@@ -74,7 +74,7 @@ struct GroundTruth {
 
 /// Every approximation has a name here.
 struct Quality {
-    int sub_scan_lines = 4;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8
+    int sub_scan_lines = 2;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8
 };
 
 }  // namespace quadrig

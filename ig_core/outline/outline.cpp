@@ -74,7 +74,8 @@ void solve_row(const Outline& outline, double zeta, Found&& found) {
 }
 
 void find_bands(const RowGrid& rows, Outline& out) {
-    const double z_high = rows.z(0) - out.solid.z0, z_low = rows.z(rows.count - 1) - out.solid.z0;
+    // The picture's edges, not its outermost rows: a picture of one row has a height, too.
+    const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
     auto& keys = out.key_points;
     std::sort(keys.begin(), keys.end(), [](const KeyPoint& a, const KeyPoint& b) { return a.zeta < b.zeta; });
     double from = z_low;

@@ -67,16 +67,12 @@ QuadQuadric expand(const GeneralQuadric& g) {
             q[9]};
 }
 
-/// Solves M x = -v with full pivoting. Pivots below 1e-12 of the largest entry count as zero: their unknowns stay 0,
-/// which leaves the anchor of a cylinder on its axis and of a paraboloid near its axis. Returns the rank.
-int stationary_point(const QuadQuadric& q, Quad3& x) {
+/// Solves M x = -v with full pivoting. Pivots of `least` or less count as zero: their unknowns stay 0. Returns the
+/// rank.
+int solve(const QuadQuadric& q, Quad least, Quad3& x) {
     Quad a[3][4];
-    Quad largest = 0;
     for (int r = 0; r < 3; ++r) {
-        for (int k = 0; k < 3; ++k) {
-            a[r][k] = q.m[r][k];
-            largest = std::max(largest, magnitude(a[r][k]));
-        }
+        for (int k = 0; k < 3; ++k) a[r][k] = q.m[r][k];
         a[r][3] = -q.v[r];
     }
     int column_of[3] = {0, 1, 2}, rank = 0;
@@ -85,7 +81,7 @@ int stationary_point(const QuadQuadric& q, Quad3& x) {
         for (int r = rank; r < 3; ++r)
             for (int k = rank; k < 3; ++k)
                 if (magnitude(a[r][k]) > magnitude(a[pr][pc])) pr = r, pc = k;
-        if (magnitude(a[pr][pc]) <= largest * static_cast<Quad>(1e-12)) break;
+        if (magnitude(a[pr][pc]) <= least) break;
         for (int k = 0; k < 4; ++k) std::swap(a[rank][k], a[pr][k]);
         for (auto& row : a) std::swap(row[rank], row[pc]);
         std::swap(column_of[rank], column_of[pc]);
@@ -100,11 +96,32 @@ int stationary_point(const QuadQuadric& q, Quad3& x) {
     return rank;
 }
 
+/// Of the points on the axis of a cylinder, near that of a paraboloid, or midway in a slab, the one nearest to all
+/// planes together: a solid whose quadric does not say where along the axis it lies is found by its caps. Least
+/// squares, |Mx + v| counting 1e8 times as much as the distance from a plane.
+Quad3 point_among_planes(const QuadQuadric& q, const std::vector<BoundingPlane>& planes) {
+    QuadQuadric sum{};
+    const auto add_square = [&sum](const Quad(&n)[3], Quad b, Quad weight) {
+        for (int r = 0; r < 3; ++r) {
+            for (int k = 0; k < 3; ++k) sum.m[r][k] += weight * n[r] * n[k];
+            sum.v[r] += weight * b * n[r];
+        }
+    };
+    for (int r = 0; r < 3; ++r) add_square(q.m[r], q.v[r], 1e16);
+    for (const BoundingPlane& plane : planes) {
+        const Quad n[3] = {plane.coefficients[0], plane.coefficients[1], plane.coefficients[2]};
+        add_square(n, plane.coefficients[3], 1 / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+    }
+    Quad3 point;
+    solve(sum, 1e-6, point);
+    return point;
+}
+
 bool positive_definite(const Sym3& m, const Sym3& adjugate, double determinant) {
     return m.xx > 0 && m.yy > 0 && m.zz > 0 && adjugate.xx > 0 && adjugate.yy > 0 && adjugate.zz > 0 && determinant > 0;
 }
 
-void set_general(const GeneralQuadric& general, Solid& solid) {
+void set_general(const GeneralQuadric& general, const std::vector<BoundingPlane>& planes, Solid& solid) {
     QuadQuadric q = expand(general);
     Quad largest = 0;
     for (const auto& row : q.m)
@@ -117,9 +134,10 @@ void set_general(const GeneralQuadric& general, Solid& solid) {
     for (Quad& entry : q.v) entry /= largest;
     q.s /= largest;
 
-    Quad3 centre;
-    const int rank = stationary_point(q, centre);
-    for (int i = 0; i < 3; ++i) solid.anchor.metres[i] = static_cast<double>(centre[static_cast<std::size_t>(i)]);
+    Quad3 anchor;
+    const int rank = solve(q, 1e-12, anchor);
+    if (rank < 3) anchor = point_among_planes(q, planes);
+    for (int i = 0; i < 3; ++i) solid.anchor.metres[i] = static_cast<double>(anchor[static_cast<std::size_t>(i)]);
     Quad w[3], c = q.s;
     for (int i = 0; i < 3; ++i) {
         w[i] = q.v[i];
@@ -223,7 +241,7 @@ Solid make_solid(const Object& object) {
     solid.radius = std::numeric_limits<double>::infinity();
     if (const auto* ellipsoid = std::get_if<Ellipsoid>(&object.shape)) set_ellipsoid(*ellipsoid, solid);
     if (const auto* hill = std::get_if<Hill>(&object.shape)) set_hill(*hill, solid);
-    if (const auto* general = std::get_if<GeneralQuadric>(&object.shape)) set_general(*general, solid);
+    if (const auto* general = std::get_if<GeneralQuadric>(&object.shape)) set_general(*general, object.planes, solid);
     for (std::size_t j = 0; j < object.planes.size(); ++j) add_plane(object.planes[j], static_cast<int>(j) + 1, solid);
     solid.may_be_endless = endless(solid);
     return solid;

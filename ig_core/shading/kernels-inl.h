@@ -252,6 +252,7 @@ constexpr float kLargestPhaseStep = 0.3F;
 HWY_INLINE int texture_stride(const ShadeInput& in, int first) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
+    if (hn::Lanes(d) < 4) return 1;  // too few probes to judge a block by
     const float spacing = static_cast<float>(kTextureBlock) / static_cast<float>(hn::Lanes(d) - 1);
     const V column =
         hn::Clamp(hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, spacing), hn::Set(d, static_cast<float>(first))),

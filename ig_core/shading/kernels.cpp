@@ -57,11 +57,11 @@ void CompositeWhole(const ShadeBuffer& buffer, std::span<const std::uint32_t> sa
     }
 }
 
-/// Share of each cell of one sub-scan line of a pixel that lies between two ends, given in cells from the pixel's left
-/// edge.
+/// Share of the cells of one sub-scan line of a pixel, from cell `first` on, that lies between two ends, given in cells
+/// from the pixel's left edge.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V cell_cover(D d, float from, float to) {
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), cell = hn::Iota(d, 0.0F);
+HWY_INLINE V cell_cover(D d, std::size_t first, float from, float to) {
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), cell = hn::Iota(d, static_cast<float>(first));
     const V upper = hn::Clamp(hn::Sub(hn::Set(d, to), cell), zero, one);
     const V lower = hn::Clamp(hn::Sub(hn::Set(d, from), cell), zero, one);
     return hn::Max(zero, hn::Sub(upper, lower));
@@ -69,7 +69,8 @@ HWY_INLINE V cell_cover(D d, float from, float to) {
 
 void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
                       ShadeBuffer& row) {
-    const hn::CappedTag<float, kCellsPerLine> d;
+    const hn::CappedTag<float, kCellsPerLine>
+        d;  // a sub-scan line of cells at a time, or less on targets without vectors
     using V = hn::Vec<decltype(d)>;
     const auto lines = static_cast<std::size_t>(sub_lines);
     const std::size_t cells = lines * kCellsPerLine;
@@ -88,13 +89,15 @@ void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> l
         const bool whole = span.inner_from <= column && column < span.inner_to;
         const V alpha = hn::Set(d, buffer.opacity[layer.sample]);
         V sum = zero, left = zero;
-        for (std::size_t line = 0; line < lines; ++line) {
-            const V cover = whole ? one
-                                  : cell_cover(d, static_cast<float>(span.from[line] - column) * kCellsPerLine,
-                                               static_cast<float>(span.to[line] - column) * kCellsPerLine);
-            const V weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + line * kCellsPerLine));
-            const V rest = hn::Max(zero, hn::Sub(hn::Load(d, through + line * kCellsPerLine), weight));
-            hn::Store(rest, d, through + line * kCellsPerLine);
+        for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
+            const std::size_t line = i / kCellsPerLine;
+            const V cover =
+                whole ? one
+                      : cell_cover(d, i % kCellsPerLine, static_cast<float>(span.from[line] - column) * kCellsPerLine,
+                                   static_cast<float>(span.to[line] - column) * kCellsPerLine);
+            const V weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + i));
+            const V rest = hn::Max(zero, hn::Sub(hn::Load(d, through + i), weight));
+            hn::Store(rest, d, through + i);
             sum = hn::Add(sum, weight);
             left = hn::Max(left, rest);
         }

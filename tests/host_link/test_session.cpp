@@ -17,7 +17,8 @@ namespace {
 thread_local bool counting_allocations = false;
 thread_local std::size_t allocations = 0;
 }  // namespace
-void* operator new(std::size_t size) {
+// Not inlined: GCC would otherwise compare the halves of a pair that it sees through.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     if (counting_allocations) ++allocations;
     if (void* p = std::malloc(size)) return p;
     throw std::bad_alloc();
@@ -27,8 +28,8 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     if (counting_allocations) ++allocations;
     return std::malloc(size);
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace {
 

@@ -16,9 +16,7 @@ struct Error {
     int column, row;  ///< of the worst
 };
 
-/// The fast picture against supersampling of the exact one. Measured at the default quality: 47 to 56 dB for plain
-/// solids, 42 to 65 for textured and translucent ones, 43 for the tree close up, 53 for the clouds; the bounds stand 2
-/// to 4 dB below.
+/// The fast picture against supersampling of the exact one.
 Error picture_error(const Scene& scene, const View& view, const Environment& environment = {},
                     const Quality& quality = {}, int samples = 8) {
     const reference::LinearImage exact = reference::picture(scene, view, environment, samples);
@@ -74,20 +72,20 @@ TEST_CASE("edges of plain opaque solids are as 64 rays a pixel have them") {
             object.paint.colour = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
         const Error error = picture_error(scene, random_view(random, 96, 72));
         CAPTURE(trial, error.psnr, error.worst, error.column, error.row);
-        CHECK(error.psnr > 44);
-        CHECK(error.worst < 0.25);
+        CHECK(error.psnr > 40);
+        CHECK(error.worst < 0.35);
     }
 }
 
-TEST_CASE("a tree on a hill's foot under clouds is drawn as the reference draws it", "[!mayfail]") {
+TEST_CASE("a tree on a hill's foot under clouds is drawn as the reference draws it") {
     const Scene scene = one_tree();
     for (const View& view :
          {look({0, 60, 4}, {{0}, {3}, {0}}, 120, 90, 40), look({-40, 70, 12}, {{55}, {-5}, {10}}, 120, 90, 60),
           look({0, 0, 2500}, {{10}, {-60}, {0}}, 120, 90, 60)}) {
         const Error error = picture_error(scene, view, {30, {}, {}});
         CAPTURE(view.eye.metres.z, error.psnr, error.worst, error.column, error.row);
-        CHECK(error.psnr > 41);
-        CHECK(error.mean < 3.5e-3);
+        CHECK(error.psnr > 44);
+        CHECK(error.mean < 3e-3);
     }
 }
 
@@ -98,8 +96,8 @@ TEST_CASE("scenes with everything in them are drawn as the reference draws them"
         const Scene scene = painted_scene(random, 15);
         const Error error = picture_error(scene, random_view(random, 96, 72), {random.between(0, 60), {}, {}});
         CAPTURE(trial, error.psnr, error.mean, error.worst, error.column, error.row);
-        CHECK(error.psnr > 38);
-        CHECK(error.mean < 5e-3);
+        CHECK(error.psnr > 36);
+        CHECK(error.mean < 6e-3);
     }
 }
 
@@ -118,14 +116,14 @@ TEST_CASE("more sub-scan lines come closer to the exact picture") {
     }
 }
 
-TEST_CASE("a view window off the middle, pixels not square, shows the same world", "[!mayfail]") {
+TEST_CASE("a view window off the middle, pixels not square, shows the same world") {
     const Scene scene = one_tree();
     const View view{{{-20, 40, 8}},
                     eye_from_scene_rotation({{30}, {2}, {5}}),
                     ImagePlane::window(140, 60, {-45}, {10}, {20}, {-30})};
     const Error error = picture_error(scene, view);
     CAPTURE(error.psnr, error.worst, error.column, error.row);
-    CHECK(error.psnr > 41);
+    CHECK(error.psnr > 44);
 }
 
 TEST_CASE("drift carries a texture along with scene time, far into a flight") {

@@ -12,18 +12,41 @@ namespace {
 constexpr int kRows = 1 << 24;
 /// Of the window's width: key points closer than this are one.
 constexpr double kSamePoint = 1e-9;
+/// Relative to the terms of a sum: what may be rounding.
+constexpr double kRounding = 1e-12;
 /// A point whose form is this small beside its terms lies on the curve.
 constexpr double kOnCurve = 1e-7;
 
-/// Where a row conic's discriminant changes its sign, within an interval, with the interval's own ends.
-std::vector<double> extrema_between(const RowConic& conic, double zeta_from, double zeta_to) {
-    std::vector<double> ends{zeta_from, zeta_to};
-    const double a = conic.discriminant[2], b = 0.5 * conic.discriminant[1], c = conic.discriminant[0];
-    const double q = -(b + std::copysign(std::sqrt(std::max(0.0, b * b - a * c)), b));
-    for (const double zeta : {q / a, c / q})
-        if (zeta > zeta_from && zeta < zeta_to) ends.push_back(zeta);
-    std::sort(ends.begin(), ends.end());
-    return ends;
+/// Adds the zeros of c[0] + c[1] zeta + c[2] zeta^2; where they are complex, their real part, at which the polynomial
+/// comes closest to zero.
+void add_zeros(const std::array<double, 3>& c, std::vector<double>& zetas) {
+    const double half = 0.5 * c[1];
+    const double q = -(half + std::copysign(std::sqrt(std::max(0.0, half * half - c[2] * c[0])), half));
+    zetas.insert(zetas.end(), {q / c[2], c[0] / q});
+}
+
+/// Rows, in order, between which a curve is smooth: the window's ends, the extrema, where two lines cross, and the row
+/// that an asymptote takes.
+std::vector<double> rows_of(const RowConic& conic, double zeta_from, double zeta_to) {
+    std::vector<double> rows;
+    add_zeros(conic.discriminant, rows);
+    if (std::abs(conic.alpha) < kRounding * std::abs(conic.beta[1])) rows.push_back(-conic.beta[0] / conic.beta[1]);
+    std::erase_if(rows, [&](double zeta) { return !(zeta > zeta_from && zeta < zeta_to); });
+    rows.insert(rows.end(), {zeta_from, zeta_to});
+    std::sort(rows.begin(), rows.end());
+    return rows;
+}
+
+/// A curve that is nothing but level lines.
+std::vector<double> level_rows(const RowConic& conic, double zeta_from, double zeta_to) {
+    std::vector<double> rows;
+    add_zeros(conic.gamma, rows);
+    std::erase_if(rows, [&](double zeta) {
+        const double terms =
+            std::abs(conic.gamma[0]) + std::abs(conic.gamma[1] * zeta) + std::abs(conic.gamma[2] * zeta * zeta);
+        return !(zeta > zeta_from && zeta < zeta_to) || std::abs(conic.gamma_at(zeta)) > kRounding * terms;
+    });
+    return rows;
 }
 
 /// All of a curve in the window. `behind(d)` tells where its points lie behind the eye.
@@ -32,8 +55,15 @@ std::vector<Polyline> whole_curve(const Outline& outline, std::size_t curve, con
                                   Behind&& behind) {
     const double x0 = outline.solid.x0, z0 = outline.solid.z0;
     const RowConic& conic = outline.curves[curve];
-    const std::vector<double> ends = extrema_between(conic, window.z_from - z0, window.z_to - z0);
+    const double low = window.z_from - z0, high = window.z_to - z0;
     std::vector<Polyline> pieces;
+    if (is_level(conic, window)) {
+        for (const double zeta : level_rows(conic, low, high))
+            if (!behind(glm::dvec3(0.0, 1.0, zeta)))
+                pieces.push_back({{window.x_from, z0 + zeta}, {window.x_to, z0 + zeta}});
+        return pieces;
+    }
+    const std::vector<double> ends = rows_of(conic, low, high);
     for (std::size_t i = 1; i < ends.size(); ++i) {
         if (!(conic.discriminant_at(0.5 * (ends[i - 1] + ends[i])) > 0.0)) continue;
         for (const auto kind : {Boundary::Kind::rising, Boundary::Kind::falling}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace quadrig {
 namespace {
@@ -14,6 +15,10 @@ constexpr int kFirstRows = 256;
 constexpr double kChange = 1e-12;
 /// Of the window's width: level boundaries shorter than this are rounding, and lines this close are one.
 constexpr double kLevel = 1e-4;
+/// A form that changes by this much less along a row than across rows is level.
+constexpr double kLevelCurve = 1e-12;
+/// Of the window's height: how far from a level boundary it is asked what lies on either side.
+constexpr double kInside = 1e-10;
 /// Of the window's height: bands further apart have nothing between them, and thinner ones are rounding.
 constexpr double kGap = 1e-5;
 
@@ -35,19 +40,23 @@ Boundary boundary_at(const Outline& outline, double xi, double zeta) {
     return best;
 }
 
-SeenBand look_at_row(const Outline& outline, double zeta) {
+/// One row of the window: what lies beside it counts as endless.
+SeenBand look_at_row(const Outline& outline, double zeta, const ImageWindow& window) {
     std::array<Cut, kMaxCuts> cuts;
     const int count = cuts_on_row_directly(outline, outline.solid.z0 + zeta, cuts.data());
     SeenBand seen;
-    const auto add = [&](double x, int surface) {
-        seen.boundaries.push_back(boundary_at(outline, x - outline.solid.x0, zeta));
+    double reached = -kInfinity;
+    const auto add = [&](double xi, int surface) {
+        seen.boundaries.push_back(boundary_at(outline, xi, zeta));
         seen.surfaces.push_back(surface);
     };
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        if (i > 0 && cuts[i].from > cuts[i - 1].to) add(cuts[i - 1].to, kNoSurface);
-        add(cuts[i].from, cuts[i].surface);
+    for (const Cut& cut : std::span(cuts).first(static_cast<std::size_t>(count))) {
+        if (!(cut.from < window.x_to && cut.to > window.x_from)) continue;
+        if (!seen.surfaces.empty() && cut.from - outline.solid.x0 > reached) add(reached, kNoSurface);
+        add(cut.from > window.x_from ? cut.from - outline.solid.x0 : -kInfinity, cut.surface);
+        reached = cut.to < window.x_to ? cut.to - outline.solid.x0 : kInfinity;
     }
-    if (count > 0) add(cuts[static_cast<std::size_t>(count) - 1].to, kNoSurface);
+    if (!seen.surfaces.empty()) add(reached, kNoSurface);
     return seen;
 }
 
@@ -59,25 +68,26 @@ bool same_order(const SeenBand& a, const SeenBand& b) {
 
 /// Adds the rows between `from` and `to` where the order changes.
 void find_changes(const Outline& outline, double from, const SeenBand& below, double to, const SeenBand& above,
-                  double closest, std::vector<double>& changes) {
+                  double closest, const ImageWindow& window, std::vector<double>& changes) {
     if (same_order(below, above)) return;
     const double middle = 0.5 * (from + to);
     if (to - from < closest) {
         changes.push_back(middle);
         return;
     }
-    const SeenBand between = look_at_row(outline, middle);
-    find_changes(outline, from, below, middle, between, closest, changes);
-    find_changes(outline, middle, between, to, above, closest, changes);
+    const SeenBand between = look_at_row(outline, middle, window);
+    find_changes(outline, from, below, middle, between, closest, window, changes);
+    find_changes(outline, middle, between, to, above, closest, window, changes);
 }
 
-std::vector<SeenBand> bands_by_row(const Outline& outline, double zeta_low, double zeta_high) {
+std::vector<SeenBand> bands_by_row(const Outline& outline, const ImageWindow& window) {
+    const double zeta_low = window.z_from - outline.solid.z0, zeta_high = window.z_to - outline.solid.z0;
     std::vector<double> changes{zeta_low};
     const auto row = [&](int i) { return zeta_low + (zeta_high - zeta_low) * i / kFirstRows; };
-    SeenBand last = look_at_row(outline, zeta_low);
+    SeenBand last = look_at_row(outline, zeta_low, window);
     for (int i = 1; i <= kFirstRows; ++i) {
-        SeenBand next = look_at_row(outline, row(i));
-        find_changes(outline, row(i - 1), last, row(i), next, kChange * (zeta_high - zeta_low), changes);
+        SeenBand next = look_at_row(outline, row(i), window);
+        find_changes(outline, row(i - 1), last, row(i), next, kChange * (zeta_high - zeta_low), window, changes);
         last = std::move(next);
     }
     changes.push_back(zeta_high);
@@ -87,45 +97,43 @@ std::vector<SeenBand> bands_by_row(const Outline& outline, double zeta_low, doub
                   changes.end() - 1);
     std::vector<SeenBand> bands;
     for (std::size_t i = 1; i < changes.size(); ++i) {
-        SeenBand band = look_at_row(outline, 0.5 * (changes[i - 1] + changes[i]));
+        SeenBand band = look_at_row(outline, 0.5 * (changes[i - 1] + changes[i]), window);
         band.zeta_from = changes[i - 1], band.zeta_to = changes[i];
         if (!band.boundaries.empty() && band.zeta_from < band.zeta_to) bands.push_back(std::move(band));
     }
     return bands;
 }
 
-struct Crossing {
-    double xi;
-    int surface;  ///< to the right of it
-};
-std::vector<Crossing> crossings(const Outline& outline, const SeenBand* band, double zeta) {
-    std::vector<Crossing> all{{-kInfinity, kNoSurface}};
-    if (band != nullptr)
-        for (std::size_t i = 0; i < band->boundaries.size(); ++i)
-            all.push_back(
-                {std::max(all.back().xi, drawn_intercept(outline, band->boundaries[i], zeta)), band->surfaces[i]});
-    return all;
-}
-int surface_in(const std::vector<Crossing>& crossings, double xi) {
-    int surface = kNoSurface;
-    for (const Crossing& crossing : crossings)
-        if (crossing.xi <= xi) surface = crossing.surface;
-    return surface;
+/// Whether a boundary runs level, and so crosses rows nowhere in the window.
+bool is_level(const Outline& outline, const Boundary& boundary, const ImageWindow& window) {
+    return (boundary.kind == Boundary::Kind::rising || boundary.kind == Boundary::Kind::falling) &&
+           is_level(outline.curves[boundary.index], window);
 }
 
-/// Adds what changes from one band to the next all along a level stretch: an edge seen level, or a face seen edge-on.
+/// Whether a point is within `tolerance` in z of a curve that runs level there.
+bool is_level_at(const RowConic& conic, double xi, double zeta, double tolerance) {
+    const double value = conic.alpha * xi * xi + 2.0 * conic.beta_at(zeta) * xi + conic.gamma_at(zeta);
+    const double slope = 2.0 * conic.beta[1] * xi + conic.gamma[1] + 2.0 * zeta * conic.gamma[2];
+    return std::abs(value) <= tolerance * std::abs(slope);
+}
+
+/// Adds what changes from one band to the next all along a level stretch: an edge seen level, a face seen edge-on.
 void add_level_segments(const Outline& outline, const SeenBand* below, const SeenBand* above, double zeta,
                         const ImageWindow& window, std::vector<VisibleSegment>& segments) {
-    const double x0 = outline.solid.x0, tolerance = kLevel * window.width();
-    const auto low = crossings(outline, below, zeta), high = crossings(outline, above, zeta);
+    const double x0 = outline.solid.x0, tolerance = kLevel * window.width(), inside = kInside * window.height();
     std::vector<double> ends{window.x_from - x0, window.x_to - x0};
-    for (const auto* side : {&low, &high})
-        for (const Crossing& crossing : *side)
-            if (crossing.xi > ends[0] && crossing.xi < ends[1]) ends.push_back(crossing.xi);
+    for (const SeenBand* band : {below, above}) {
+        if (band == nullptr) continue;
+        for (const Boundary& boundary : band->boundaries) {
+            const double xi = drawn_intercept(outline, boundary, zeta);
+            if (xi > ends[0] && xi < ends[1] && !is_level(outline, boundary, window)) ends.push_back(xi);
+        }
+    }
     std::sort(ends.begin(), ends.end());
     for (std::size_t i = 1; i < ends.size(); ++i) {
         const double from = ends[i - 1], to = ends[i], middle = 0.5 * (from + to);
-        const int left = surface_in(high, middle), right = surface_in(low, middle);
+        const int left = surface_at(outline.solid, middle, zeta + inside);
+        const int right = surface_at(outline.solid, middle, zeta - inside);
         if (left == right || !(to - from > tolerance)) continue;
         const bool on_line = std::any_of(outline.lines.begin(), outline.lines.end(), [&](const EdgeLine& edge) {
             const auto near = [&](double xi) {
@@ -135,14 +143,18 @@ void add_level_segments(const Outline& outline, const SeenBand* below, const See
             return near(from) && near(to);
         });
         const double z = outline.solid.z0 + zeta;
-        segments.push_back({on_line ? StrokeKind::intersection_line : StrokeKind::intersection_curve, left, right,
-                            clip({{x0 + from, z}, {x0 + to, z}}, window)});
+        const StrokeKind kind = on_line ? StrokeKind::intersection_line
+                                : is_level_at(outline.curves[0], middle, zeta, tolerance)
+                                    ? StrokeKind::limb
+                                    : StrokeKind::intersection_curve;
+        segments.push_back({kind, left, right, clip({{x0 + from, z}, {x0 + to, z}}, window)});
     }
 }
 
 void add_segment(const Outline& outline, const SeenBand& band, std::size_t i, const ImageWindow& window,
                  std::vector<VisibleSegment>& segments) {
     const Boundary& boundary = band.boundaries[i];
+    if (is_level(outline, boundary, window)) return;
     const double x0 = outline.solid.x0, z0 = outline.solid.z0;
     const auto x_at = [&](double z) { return x0 + drawn_intercept(outline, boundary, z - z0); };
     const double from = z0 + band.zeta_from, to = z0 + band.zeta_to;
@@ -162,22 +174,33 @@ void add_segment(const Outline& outline, const SeenBand& band, std::size_t i, co
 
 }  // namespace
 
+bool is_level(const RowConic& conic, const ImageWindow& window) {
+    const double w = window.width(), h = window.height();
+    const double along = w * (std::abs(conic.alpha) * w + std::abs(conic.beta[0]) + std::abs(conic.beta[1]) * h);
+    return along <=
+           kLevelCurve * (std::abs(conic.gamma[0]) + h * (std::abs(conic.gamma[1]) + h * std::abs(conic.gamma[2])));
+}
+
 double drawn_intercept(const Outline& outline, const Boundary& boundary, double zeta) {
     const bool rising = boundary.kind == Boundary::Kind::rising;
     if (!rising && boundary.kind != Boundary::Kind::falling) return intercept(outline, boundary, zeta);
     const RowConic& conic = outline.curves[boundary.index];
     const double beta = conic.beta_at(zeta), root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta)));
-    // The quotient gamma / (|beta| + root) carries the rounding of gamma's terms over that sum, (-beta +- root) / alpha
-    // that of the sum over alpha.
-    const double sum = std::abs(beta) + root, terms = std::abs(conic.gamma[0]) + std::abs(zeta * conic.gamma[1]) +
-                                                      std::abs(zeta * zeta * conic.gamma[2]);
-    if (sum * sum > terms * std::abs(conic.alpha)) return intercept(outline, boundary, zeta);
+    // (-beta +- root) / alpha carries the rounding of its terms over alpha; the quotient gamma / (|beta| + root), that
+    // of gamma's terms over the sum below it.
+    const double beta_terms = std::abs(conic.beta[0]) + std::abs(zeta * conic.beta[1]) + root;
+    const double gamma_terms =
+        std::abs(conic.gamma[0]) + std::abs(zeta * conic.gamma[1]) + std::abs(zeta * zeta * conic.gamma[2]);
+    if (beta_terms * (std::abs(beta) + root) > gamma_terms * std::abs(conic.alpha))
+        return intercept(outline, boundary, zeta);
+    if (std::numeric_limits<double>::epsilon() * beta_terms > std::abs(conic.alpha))
+        return std::numeric_limits<double>::quiet_NaN();
     return (rising ? root - beta : -(root + beta)) / conic.alpha;
 }
 
 std::vector<SeenBand> bands_in_window(const Outline& outline, const ImageWindow& window) {
     const double low = window.z_from - outline.solid.z0, high = window.z_to - outline.solid.z0;
-    if (outline.direct) return bands_by_row(outline, low, high);
+    if (outline.direct) return bands_by_row(outline, window);
     std::vector<SeenBand> bands;
     if (outline.limb_only)
         bands.push_back({outline.zeta_from,

@@ -6,8 +6,12 @@
 
 namespace quadrig {
 
-/// `intercept`, but exact to rounding also at a curve's extremum, where that may be nought by nought.
+/// `intercept`, but exact to rounding also at a curve's extremum, where that may be nought by nought; NaN where nothing
+/// can be said.
 double drawn_intercept(const Outline& outline, const Boundary& boundary, double zeta);
+
+/// Whether a curve is nothing but level lines in the window: its form does not change along a row.
+bool is_level(const RowConic& conic, const ImageWindow& window);
 
 /// A z-band with its boundaries from left to right, `surfaces[i]` to the right of `boundaries[i]`. Never without one.
 struct SeenBand {

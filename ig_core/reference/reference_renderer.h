@@ -23,6 +23,18 @@ GroundTruth ground_truth(const Scene& scene, const View& view, std::vector<std::
 /// The picture by supersampling: `samples` x `samples` rays a pixel, regular grid, mean in linear light.
 LinearImage picture(const Scene& scene, const View& view, const Environment& environment, int samples);
 
+/// The limit of supersampling: each pixel by itself, in squares that are quartered wherever their corners and middle
+/// show other surfaces or colours, until its mean changes by less than `tolerance` (linear light) from one quartering
+/// to the next, or `deepest` quarterings are done. All pixels are quartered three times: what is too thin to be met by
+/// any of those 145 rays is not found.
+struct ConvergedPicture {
+    LinearImage image;
+    int open_pixels = 0;    ///< those whose mean still changed by `tolerance` or more at the deepest quartering
+    std::int64_t rays = 0;  ///< what it cost
+};
+ConvergedPicture converged_picture(const Scene& scene, const View& view, const Environment& environment,
+                                   double tolerance = 1e-4, int deepest = 9);
+
 /// Linear light to 8-bit sRGB, rounded to nearest (IEC 61966-2-1), into an image of the same size.
 void to_srgb8(const LinearImage& linear, const FrameImage& image);
 

@@ -113,12 +113,15 @@ Clipped clip(const Stretch& stretch, const Solid<double>& solid, const Vector<do
         if (rate.middle < 0) {
             cut.end_low = std::min(cut.end_low, crossing.low());
             cut.end_high = std::min(cut.end_high, crossing.high());
-        } else if (crossing.low() > cut.begin_low) {
-            cut.other_begins_high = std::max(cut.other_begins_high, cut.begin_high);
-            cut.begin_low = crossing.low(), cut.begin_high = crossing.high();
-            cut.surface = half_space.surface;
         } else {
-            cut.other_begins_high = std::max(cut.other_begins_high, crossing.high());
+            if (crossing.low() > cut.begin_low) {
+                cut.other_begins_high = cut.begin_high;
+                cut.begin_low = crossing.low();
+                cut.surface = half_space.surface;
+            } else {
+                cut.other_begins_high = std::max(cut.other_begins_high, crossing.high());
+            }
+            cut.begin_high = std::max(cut.begin_high, crossing.high());
         }
     }
     return cut;

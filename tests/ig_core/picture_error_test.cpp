@@ -18,7 +18,7 @@ struct Error {
 
 /// The fast picture against supersampling of the exact one.
 Error picture_error(const Scene& scene, const View& view, const Environment& environment = {},
-                    const Quality& quality = {}, int samples = 8) {
+                    const Quality& quality = {4}, int samples = 8) {
     const reference::LinearImage exact = reference::picture(scene, view, environment, samples);
     const Picture fast = render(scene, view, environment, quality);
     double squares = 0, sum = 0;

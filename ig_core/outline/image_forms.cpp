@@ -31,7 +31,8 @@ struct Interval {
 int inside_quadric(double a, double b, double c, double d, std::array<Interval, 2>& out) {
     a += 0.0;  // -0 would flip the sign of an infinite root
     if (!(d > 0.0)) {
-        if (a > 0.0 || (a == 0.0 && c > 0.0)) return 0;
+        // Then A and C have one sign, but either may be rounding: along a cylinder's axis A is.
+        if (a > 0.0 || c > 0.0) return 0;
         out[0] = {-kInfinity, kInfinity};
         return 1;
     }

@@ -96,6 +96,10 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
     out.v = out.w - out.m * out.anchor;
     out.s = solid.quadric_at(eye);
     set_forms(out);
+    out.flat_side.reset();
+    for (const SolidPlane& side : solid.flat_sides)
+        if (const double at_eye = solid.plane_at(side, eye); at_eye < 0.0)
+            out.flat_side = EyePlane{covector(side.normal), side.offset, at_eye, 0, false};
 
     out.plane_count = 0;
     for (const SolidPlane& plane : solid.planes)

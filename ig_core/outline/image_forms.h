@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "ig_core/geometry/symmetric.h"
 #include "ig_core/scene/solid.h"
@@ -76,6 +77,7 @@ struct EyeSolid {
     Sym3 limb;          ///< L
     Sym3 tangent;  ///< planes l.p = 0 through the eye touch the quadric where l' tangent l = 0 (dual of the limb, over
                    ///< s)
+    std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
     int plane_count = 0;
     std::array<EyePlane, kMaxEyePlanes> planes;
 };

@@ -31,6 +31,15 @@ SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
     return range;
 }
 
+/// Whether neither span hides any of the other: faces of one object, and objects that abut.
+bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
+    constexpr double kRounding = 1e-6;  // columns
+    if (a.surface.outline != nullptr && a.surface.outline == b.surface.outline) return true;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
+        if (std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]) > kRounding) return false;
+    return true;
+}
+
 void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step,
                  ShadeInput& in) {
     const EyeSolid& e = span.surface.outline->solid;
@@ -145,13 +154,17 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
             continue;
         }
+        partial_.clear();
+        std::uint32_t group = run.first_layer;  // named after the first of its layers
+        for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+            const RowSpan& span = sweep.spans[sweep.layers[i]];
+            for (std::uint32_t j = group; j < i; ++j)
+                if (!side_by_side(row, span, sweep.spans[sweep.layers[j]])) group = i;
+            partial_.push_back({0, group, &span});
+        }
         for (int column = run.from; column < run.to; ++column) {
-            partial_.clear();
-            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
-                const RowSpan& span = sweep.spans[sweep.layers[i]];
-                const std::uint32_t group = span.surface.outline != nullptr ? span.surface.priority : ~0U - 1U - i;
-                partial_.push_back({sample(i, column), group, &span});
-            }
+            for (std::uint32_t i = 0; i < run.layer_count; ++i)
+                partial_[i].sample = sample(run.first_layer + i, column);
             composite_partial(buffer_, partial_, column, row.sub_lines, row_);
         }
     }

@@ -70,7 +70,10 @@ RowRoots roots_on_row(const RowConic& conic, double zeta) {
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
              bool infinity, EyeSolid& out) {
-    const glm::dvec3 anchor = eye_from_scene * (solid.anchor.metres - eye.metres);
+    // A cylinder without end is anchored where it is nearest to the eye, not where its file's numbers are small.
+    const double along = infinity ? glm::dot(solid.axis, eye.metres - solid.anchor.metres) : 0.0;
+    out.scene_anchor = {solid.anchor.metres + along * solid.axis};
+    const glm::dvec3 anchor = eye_from_scene * (out.scene_anchor.metres - eye.metres);
     const bool shear = anchor.y > kLeastShearCosine * glm::length(anchor);
     out.x0 = shear ? anchor.x / anchor.y : 0.0;
     out.z0 = shear ? anchor.z / anchor.y : 0.0;
@@ -104,8 +107,8 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
     out.plane_count = 0;
     for (const SolidPlane& plane : solid.planes)
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            covector(plane.normal), plane.offset, solid.plane_at(plane, eye),
-            plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
+            covector(plane.normal), plane.offset + along * glm::dot(plane.normal, solid.axis),
+            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
     if (near_plane)
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
             {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};

@@ -66,7 +66,8 @@ struct RowRoots {
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 
 struct EyeSolid {
-    double x0 = 0, z0 = 0;  ///< image point of the sheared Y axis
+    double x0 = 0, z0 = 0;    ///< image point of the sheared Y axis
+    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
     glm::dvec3 anchor{0.0};
     Sym3 m, adjugate;
     double determinant = 0;

@@ -145,6 +145,28 @@ std::vector<SolidPlane> flat_sides(const QuadQuadric& q, const Quad (&w)[3], Qua
     return {{normal, (g + half) / m, 0}, {-normal, (half - g) / m, 0}};
 }
 
+/// A direction along which the quadric does not change at all, zero if there is none: the axis of a cylinder.
+glm::dvec3 axis_of(const QuadQuadric& q) {
+    const auto square = [](const Quad3& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; };
+    const std::array<const Quad*, 4> rows{q.m[0], q.m[1], q.m[2], q.v};
+    Quad3 axis{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Quad *a = rows[i], *b = rows[k];
+            const Quad3 u{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+            if (square(u) > square(axis)) axis = u;
+        }
+    }
+    for (const Quad* row : rows) {
+        const Quad change = row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2];
+        const Quad terms = square({row[0], row[1], row[2]}) * square(axis);
+        if (change * change > static_cast<Quad>(1e-60) * terms) return glm::dvec3(0.0);
+    }
+    const glm::dvec3 along(static_cast<double>(axis[0]), static_cast<double>(axis[1]), static_cast<double>(axis[2]));
+    const double length = glm::length(along);
+    return length > 0.0 ? along / length : glm::dvec3(0.0);
+}
+
 bool positive_definite(const Sym3& m, const Sym3& adjugate, double determinant) {
     return m.xx > 0 && m.yy > 0 && m.zz > 0 && adjugate.xx > 0 && adjugate.yy > 0 && adjugate.zz > 0 && determinant > 0;
 }
@@ -184,6 +206,7 @@ void set_general(const GeneralQuadric& general, const std::vector<BoundingPlane>
     solid.determinant = d(q.m[0][0] * cofactor(0, 0) + q.m[0][1] * cofactor(0, 1) + q.m[0][2] * cofactor(0, 2));
     solid.c = d(c);
     solid.flat_sides = flat_sides(q, w, c);
+    solid.axis = axis_of(q);
     solid.ellipsoid = rank == 3 && positive_definite(solid.m, solid.adjugate, solid.determinant);
     solid.centre_value = rank == 3 ? std::abs(solid.c) : 0.0;
     if (solid.ellipsoid) {

@@ -60,7 +60,7 @@ void set_quadric(const FrameShading& frame, const RowSpan& span, double x, doubl
     const Sym3& m = solid.m;
     in.m = {static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz),
             static_cast<float>(m.xy), static_cast<float>(m.xz), static_cast<float>(m.yz)};
-    in.eye_from_anchor = to_float(frame.view->eye.metres - solid.anchor.metres);
+    in.eye_from_anchor = to_float(frame.view->eye.metres - e.scene_anchor.metres);
     in.gradient = to_float(solid.w);
 }
 

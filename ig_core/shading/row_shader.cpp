@@ -135,6 +135,22 @@ void RowShader::plan(const RowSweep& sweep) {
     buffer_.resize(used + kShadePadding);
 }
 
+void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
+    partial_.clear();
+    partial_layers_.clear();
+    for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+        const RowSpan& span = sweep.spans[sweep.layers[i]];
+        // Beside all layers from some group on: it changes nothing to draw it with that group.
+        std::size_t place = partial_.size();
+        std::uint32_t group = i;
+        for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
+            if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
+        while (place > 0 && group != i && partial_[place - 1].group != group) --place;
+        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {0, group, &span});
+        partial_layers_.insert(partial_layers_.begin() + static_cast<std::ptrdiff_t>(place), i);
+    }
+}
+
 void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba) {
     plan(sweep);
     // In buffer order: what a job writes past its end is overwritten by the next.
@@ -154,17 +170,9 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
             continue;
         }
-        partial_.clear();
-        std::uint32_t group = run.first_layer;  // named after the first of its layers
-        for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
-            const RowSpan& span = sweep.spans[sweep.layers[i]];
-            for (std::uint32_t j = group; j < i; ++j)
-                if (!side_by_side(row, span, sweep.spans[sweep.layers[j]])) group = i;
-            partial_.push_back({0, group, &span});
-        }
+        group_layers(row, sweep, run);
         for (int column = run.from; column < run.to; ++column) {
-            for (std::uint32_t i = 0; i < run.layer_count; ++i)
-                partial_[i].sample = sample(run.first_layer + i, column);
+            for (std::size_t i = 0; i < partial_.size(); ++i) partial_[i].sample = sample(partial_layers_[i], column);
             composite_partial(buffer_, partial_, column, row.sub_lines, row_);
         }
     }

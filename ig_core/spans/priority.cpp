@@ -12,6 +12,8 @@ namespace {
 constexpr double kCrossingWidth = 1.0 / 16.0;
 /// An overlap narrower than this (columns) is rounding where two spans abut: it has no order.
 constexpr double kLeastOverlap = 1.0 / 512.0;
+/// Depths that differ by less than this share are the same: faces in one plane are in file order.
+constexpr double kSameDepth = 1e-13;
 /// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
 constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
 constexpr int kMaxSplits = 8;
@@ -44,7 +46,8 @@ class Crossings {
 
     [[nodiscard]] End end(double column) const {
         const DepthOnLine::Sample a = a_.at(column), b = b_.at(column);
-        return {column, a, b, a.u > b.u || (a.u == b.u && a_wins_ties_)};
+        const double rounding = kSameDepth * std::abs(b.u);
+        return {column, a, b, a_wins_ties_ ? a.u >= b.u - rounding : a.u > b.u + rounding};
     }
 
     /// Tangents of the farther surface at both ends, chord of the nearer one: their closest approach decides.
@@ -112,8 +115,8 @@ std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b
     for_outer_lines(wide, wide_least, wide_most);
     if (!any) return std::nullopt;
     const auto settled = [&](double narrow_low, double narrow_high) -> std::optional<Priority> {
-        if (wide_least > narrow_high) return a_first ? Priority::front : Priority::behind;
-        if (narrow_low > wide_most) return a_first ? Priority::behind : Priority::front;
+        if (wide_least > (1.0 + kSameDepth) * narrow_high) return a_first ? Priority::front : Priority::behind;
+        if (narrow_low > (1.0 + kSameDepth) * wide_most) return a_first ? Priority::behind : Priority::front;
         return std::nullopt;
     };
     if (const auto proven = settled(narrow.surface.far_u, narrow.surface.near_u)) return proven;

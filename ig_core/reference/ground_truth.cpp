@@ -24,7 +24,7 @@ struct Identity {
 struct Answer {
     Identity identity;
     double depth = std::numeric_limits<double>::infinity();
-    bool tie = false;
+    std::uint8_t tie = 0;
 };
 
 template <class Scalar>
@@ -70,8 +70,12 @@ Answer exact_answer(const SeenScene& seen, const std::vector<std::uint32_t>& obj
                     bool find_ties) {
     const auto answer = nearest<Quad>(seen, objects, column + Quad(0.5), row + Quad(0.5));
     const bool depths_agree = answer.depth < kInfinity && answer.next_depth - answer.depth <= kTieDepth * answer.depth;
-    return {answer.identity, static_cast<double>(answer.depth),
-            find_ties && (depths_agree || changes_nearby(seen, objects, answer.identity, column, row))};
+    std::uint8_t tie = 0;
+    if (find_ties && changes_nearby(seen, objects, answer.identity, column, row))
+        tie = kTie;
+    else if (find_ties && depths_agree)
+        tie = kTieInDepth;
+    return {answer.identity, static_cast<double>(answer.depth), tie};
 }
 
 /// The pixels of one tile, one after the other.

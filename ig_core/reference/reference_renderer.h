@@ -16,8 +16,11 @@ struct LinearImage {
     std::vector<float> rgb;
 };
 
-/// Ids and depth at the pixel centres. `ties`, where given, is set to 1 at each pixel whose answer changes when the ray
-/// moves by 1e-6 pixel, or where two depths agree within 1e-9 relative: there more than one answer is right.
+/// More than one answer is right where it changes when the ray moves by 1e-6 pixel. Where it does not, but two depths
+/// agree within 1e-9 relative, file order decides, if rounding lets it.
+inline constexpr std::uint8_t kTie = 1, kTieInDepth = 2;
+
+/// Ids and depth at the pixel centres. `ties`, where given, is set to kTie, kTieInDepth or 0 at each.
 GroundTruth ground_truth(const Scene& scene, const View& view, std::vector<std::uint8_t>* ties = nullptr);
 
 /// The picture by supersampling: `samples` x `samples` rays a pixel, regular grid, mean in linear light.

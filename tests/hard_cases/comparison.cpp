@@ -80,13 +80,13 @@ VisibilityErrors visibility_errors(const GroundTruth& answer, const GroundTruth&
     errors.pixels = static_cast<int>(exact.object_ids.size());
     for (std::size_t pixel = 0; pixel < exact.object_ids.size(); ++pixel) {
         if (exact.object_ids[pixel] >= 0) ++errors.drawn;
-        if (ties[pixel] != 0) ++errors.ties;
+        if (ties[pixel] == reference::kTie) ++errors.ties;
         const bool same = answer.object_ids[pixel] == exact.object_ids[pixel] &&
                           answer.surface_ids[pixel] == exact.surface_ids[pixel];
         const auto described = [&] {
             return place_text(pixel, width) + ": " + seen_text(answer, pixel) + ", exact: " + seen_text(exact, pixel);
         };
-        if (!same && ties[pixel] == 0 && errors.wrong++ == 0) errors.first_wrong = described();
+        if (!same && ties[pixel] != reference::kTie && errors.wrong++ == 0) errors.first_wrong = described();
         if (!same || exact.object_ids[pixel] == kSkyId) continue;
         const double error = std::abs(answer.depth[pixel] - exact.depth[pixel]) / exact.depth[pixel];
         const double depth = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@ namespace quadrig::test {
 /// Ids and depth at the pixel centres.
 struct VisibilityErrors {
     int pixels = 0;
-    int ties = 0;               ///< pixels at which more than one answer is right
+    int ties = 0;               ///< pixels at which the answer changes when the ray moves by 1e-6 pixel
     int drawn = 0;              ///< pixels that show an object
     int wrong = 0;              ///< other (object, surface) than the reference's, ties apart
     double depth = 0.0;         ///< largest |k - k_exact| / k_exact where identity agrees

@@ -12,7 +12,7 @@ namespace {
 
 /// Cases that doubles cannot hold to 1e-6, and by how much.
 const std::map<std::string, double> kDepthLimits{
-    {"degenerate_almost_paraboloid", 2e-6},  // its centre, about which the forms are written, is 1e9 m away
+    {"degenerate_almost_paraboloid", 1.1e-6},  // its centre, about which the forms are written, is 1e9 m away
 };
 
 /// Beginnings of the catalogue's file names.
@@ -30,6 +30,7 @@ void check_cases(const std::string& kind) {
         INFO(seen.deepest_error);
         const auto limit = kDepthLimits.find(hard_case.name);
         CHECK(seen.depth <= (limit == kDepthLimits.end() ? 1e-6 : limit->second));
+        if (limit != kDepthLimits.end()) CHECK(seen.depth > 1e-6);
         const PictureErrors picture = picture_errors(hard_case.scene, hard_case.view);
         INFO(picture.worst_pixel);
         CHECK(picture.mean < (seen.pixels > 1000 ? 1.0 : 8.0));

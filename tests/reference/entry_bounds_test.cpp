@@ -113,9 +113,10 @@ TEST_CASE("every pixel has the answer of quadruple precision, and is a tie where
                     const auto other = nearest(column + across, row + down);
                     changes = changes || other.first != object || other.second.surface != hit.surface;
                 }
-            if (changes || object == 0) REQUIRE(is_tie[at] == 1);
+            if (changes) REQUIRE(is_tie[at] == kTie);
+            if (object == 0) REQUIRE(is_tie[at] != 0);
             drawn += object >= 0;
-            ties += is_tie[at];
+            ties += is_tie[at] != 0;
         }
     }
     CHECK(drawn > 1500);

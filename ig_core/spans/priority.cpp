@@ -41,17 +41,19 @@ class Crossings {
     struct End {
         double column;
         DepthOnLine::Sample a, b;
-        bool in_front;
+        bool in_front, same;
     };
 
     [[nodiscard]] End end(double column) const {
         const DepthOnLine::Sample a = a_.at(column), b = b_.at(column);
         const double rounding = kSameDepth * std::abs(b.u);
-        return {column, a, b, a_wins_ties_ ? a.u >= b.u - rounding : a.u > b.u + rounding};
+        const bool same = std::abs(a.u - b.u) <= rounding;
+        return {column, a, b, same ? a_wins_ties_ : a.u > b.u, same};
     }
 
     /// Tangents of the farther surface at both ends, chord of the nearer one: their closest approach decides.
     [[nodiscard]] static bool proven(const End& l, const End& r) {
+        if (l.same && r.same && l.a.slope == r.a.slope && l.b.slope == r.b.slope) return true;  // planes, on one line
         const auto& near_l = l.in_front ? l.a : l.b;
         const auto& near_r = l.in_front ? r.a : r.b;
         const auto& far_l = l.in_front ? l.b : l.a;

@@ -55,6 +55,7 @@ FramePaints make_frame_paints(const Scene& scene) {
         out.vertical = static_cast<float>(scene.textures[i].vertical);
         for (std::size_t k = 0; k < terms.size(); ++k) {
             out.terms[k].weight = static_cast<float>(terms[k].coefficient / sum);
+            out.terms[k].root_half_weight = std::sqrt(0.5F * out.terms[k].weight);
             out.terms[k].turns_per_metre = static_cast<float>(terms[k].frequency / (2.0 * std::numbers::pi));
         }
     }

@@ -8,13 +8,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "ig_core/shading/kernels-inl.h"
+#include "ig_core/shading/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 
-void Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) { shade_columns(in, buffer, offset); }
+void Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    in.kind == ShadeInput::Kind::sky ? shade_sky(in, buffer, offset) : shade_surface(in, buffer, offset);
+}
 
 void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                    std::span<const float> z, std::span<float> t) {
@@ -29,7 +31,9 @@ void TextureValues(const FrameTexture& texture, std::span<const float> x, std::s
         std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(i), left, pz);
         const Vec3<decltype(hn::Zero(d))> p{hn::Load(d, px), hn::Load(d, py), hn::Load(d, pz)};
         const auto none = hn::Zero(d);
-        hn::Store(texturing_function<false>(d, texture, p, none, none).value, d, pt);
+        auto sums = TextureSums<decltype(hn::Zero(d))>::none(d);
+        add_terms(d, texture, false, 0, texture.count, p, none, none, sums);
+        hn::Store(sums.sample().value, d, pt);
         std::copy_n(pt, left, t.begin() + static_cast<std::ptrdiff_t>(i));
     }
 }

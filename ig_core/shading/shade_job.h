@@ -15,6 +15,7 @@ namespace quadrig {
 struct FrameTexture {
     struct Term {
         float weight;                                    ///< C_i / sum C
+        float root_half_weight;                          ///< sqrt(weight / 2)
         float turns_per_metre;                           ///< w_i / 2 pi
         float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
     };

@@ -54,17 +54,22 @@ DepthOnLine::Sample DepthOnLine::at(double column) const {
     return {u, step_ * (-a_slope - u * (b1_ + root_slope)) / sum};
 }
 
+double DepthOnLine::value(double column) const {
+    if (plane_) return u0_ + u1_ * column;
+    const double xi = xi0_ + step_ * column;
+    const double b = b0_ + b1_ * xi;
+    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), root = d > 0.0 ? std::sqrt(d) : 0.0;
+    if (b <= 0.0) return (root - b) * inverse_s_;
+    return -(a_[0] + xi * (a_[1] + xi * a_[2])) / (b + root);
+}
+
 DepthOnLine::Bounds DepthOnLine::between(double from, double to) const {
-    const Sample left = at(from), right = at(to);
-    const double least = std::min(left.u, right.u), end_most = std::max(left.u, right.u);
-    if (left.slope <= 0.0 || right.slope >= 0.0) return {least, end_most};  // the ends are the extremes
-    const bool tangent_l = std::isfinite(left.slope), tangent_r = std::isfinite(right.slope);
-    const double width = to - from;
-    if (!tangent_l && !tangent_r) return {least, std::numeric_limits<double>::infinity()};
-    if (!tangent_l) return {least, right.u - right.slope * width};
-    if (!tangent_r) return {least, left.u + left.slope * width};
-    const double t = (right.u - left.u - right.slope * width) / (left.slope - right.slope);
-    return {least, left.u + left.slope * t};
+    const double left = value(from), right = value(to);
+    const double least = std::min(left, right), most = std::max(left, right);
+    if (plane_) return {least, most};
+    const Sample middle = at(0.5 * (from + to));
+    const double rise = 0.5 * (to - from) * std::abs(middle.slope);
+    return {least, std::isfinite(rise) ? std::max(most, middle.u + rise) : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace quadrig

@@ -29,7 +29,7 @@ struct Surface {
     std::uint32_t priority = 0;        ///< wins a tie in depth if smaller: file order, then ground, decks, sky
     const Outline* outline = nullptr;  ///< for quadrics and faces
     PlaneDepth plane;                  ///< for ground and decks
-    double near_u = 1.0 / kNearDepth;  ///< bounds of 1/k over all of the surface
+    double near_u = 1.0 / kNearDepth;  ///< bounds of 1/k over all of the span
     double far_u = 0.0;
 };
 
@@ -63,8 +63,9 @@ class DepthOnLine {
         double slope;  ///< du/dcolumn; not finite on the limb
     };
     [[nodiscard]] Sample at(double column) const;
+    [[nodiscard]] double value(double column) const;
 
-    /// Bounds of u over a stretch of the line: the lower end of its chord, and its tangents at both ends.
+    /// Bounds of u over a stretch of the line: the lower end of its chord, and the tangent in its middle.
     struct Bounds {
         double least, most;
     };

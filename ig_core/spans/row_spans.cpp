@@ -13,6 +13,21 @@ void clear_ends(RowSpan& span) {
     span.to.fill(0.0);
 }
 
+/// Narrows the bounds of 1/k from the whole object's to the span's own, by its first and last sub-scan line. (What the
+/// lines between could add is less than a sub-scan line high.)
+void bound_depth(const PixelRow& row, RowSpan& span) {
+    std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
+    while (!(span.from[first] < span.to[first])) ++first;
+    while (!(span.from[last] < span.to[last])) --last;
+    auto bounds = DepthOnLine(span.surface, row, row.z[first]).between(span.from[first], span.to[first]);
+    if (last != first) {
+        const auto more = DepthOnLine(span.surface, row, row.z[last]).between(span.from[last], span.to[last]);
+        bounds = {std::min(bounds.least, more.least), std::max(bounds.most, more.most)};
+    }
+    span.surface.near_u = std::min(span.surface.near_u, bounds.most);
+    span.surface.far_u = std::max(span.surface.far_u, bounds.least);
+}
+
 void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>& spans) {
     RowSpan& span = spans.emplace_back();
     span.surface = surface;
@@ -31,7 +46,10 @@ void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>
             to = from;
         span.from[i] = from, span.to[i] = std::max(from, to);
     }
-    if (!fit_columns(row, span)) spans.pop_back();
+    if (fit_columns(row, span))
+        bound_depth(row, span);
+    else
+        spans.pop_back();
 }
 
 }  // namespace
@@ -58,10 +76,15 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
         span.outer_to = span.inner_to = static_cast<int>(std::ceil(most_to - 0.5));
         return span.outer_from < span.outer_to;
     }
-    span.outer_from = static_cast<int>(std::floor(least_from));
-    span.outer_to = static_cast<int>(std::ceil(most_to));
-    span.inner_from = everywhere ? static_cast<int>(std::ceil(most_from)) : span.outer_to;
-    span.inner_to = everywhere ? static_cast<int>(std::floor(least_to)) : span.outer_to;
+    // No column is negative: a conversion rounds down.
+    const auto round_up = [](double column) {
+        const int whole = static_cast<int>(column);
+        return whole < column ? whole + 1 : whole;
+    };
+    span.outer_from = static_cast<int>(least_from);
+    span.outer_to = round_up(most_to);
+    span.inner_from = everywhere ? round_up(most_from) : span.outer_to;
+    span.inner_to = everywhere ? static_cast<int>(least_to) : span.outer_to;
     if (span.inner_from >= span.inner_to) span.inner_from = span.inner_to = span.outer_to;
     return span.outer_from < span.outer_to;
 }
@@ -88,10 +111,12 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
             span.from[i] = (span.from[i] - row.left) * scale;
             span.to[i] = (span.to[i] - row.left) * scale;
         }
-        if (fit_columns(row, span))
+        if (fit_columns(row, span)) {
             span.surface = surface_of(0);
-        else
+            bound_depth(row, span);
+        } else {
             spans.pop_back();
+        }
         return;
     }
     const double scale = 1.0 / row.column_step;
@@ -121,6 +146,7 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     std::size_t kept = first;
     for (std::size_t i = first; i < spans.size(); ++i)
         if (fit_columns(row, spans[i])) {
+            bound_depth(row, spans[i]);
             if (kept != i) spans[kept] = spans[i];
             ++kept;
         }

@@ -1,0 +1,149 @@
+/// Where rays meet a surface, and how far that point moves from pixel to pixel.
+// Per-target include guard: this header is compiled once for every instruction set.
+#if defined(QUADRIG_SURFACE_POINT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef QUADRIG_SURFACE_POINT_INL_H_
+#undef QUADRIG_SURFACE_POINT_INL_H_
+#else
+#define QUADRIG_SURFACE_POINT_INL_H_
+#endif
+
+#include "ig_core/shading/shade_job.h"
+#include "ig_core/shading/vector_math-inl.h"
+
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace quadrig {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Where the rays of a few columns meet a surface, and what light needs to know there.
+template <class V>
+struct SurfacePoint {
+    V depth;
+    Vec3<V> normal;  ///< outward, not unit for quadrics
+    V inverse_length;
+    V against;  ///< -N.d, which for quadrics is sqrt(L)
+    V a, limb;  ///< quadrics: A and L
+};
+
+/// Ray direction through a column of the job, scene axes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3<V> ray_at(D d, const ShadeInput& in, V column) {
+    return mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+    const V zero = hn::Zero(d);
+    const V xi = hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
+    const V a = hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.a[2]), hn::Set(d, in.a[1])), hn::Set(d, in.a[0]));
+    const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
+    const V limb = hn::Max(
+        zero, hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.limb[2]), hn::Set(d, in.limb[1])), hn::Set(d, in.limb[0])));
+    const V root = hn::Sqrt(limb);
+    // Eq 4: the entry, in the form that does not cancel.
+    const auto before = hn::Le(b, zero);
+    const V numerator = hn::IfThenElse(before, hn::Set(d, in.c), hn::Add(b, root));
+    const V denominator = hn::IfThenElse(before, hn::Sub(root, b), hn::Neg(a));
+    V depth = hn::Div(numerator, denominator);
+    depth =
+        hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth));
+    const Vec3<V> q = mul_add(depth, ray, splat(d, in.eye_from_anchor));
+    const V xx = hn::Set(d, in.m[0]), yy = hn::Set(d, in.m[1]), zz = hn::Set(d, in.m[2]);
+    const V xy = hn::Set(d, in.m[3]), xz = hn::Set(d, in.m[4]), yz = hn::Set(d, in.m[5]);
+    const Vec3<V> normal{hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, hn::Set(d, in.gradient[0])))),
+                         hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, hn::Set(d, in.gradient[1])))),
+                         hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, hn::Set(d, in.gradient[2]))))};
+    const V inverse_length = inverse_sqrt(d, hn::Max(dot(normal, normal), hn::Set(d, 1e-30F)));
+    return {depth, normal, inverse_length, root, a, limb};
+}
+
+/// g of the limb's threshold: -min Q(k d) / |Q(centre)| = L / (A |Q(centre)|), and 1 where Q has no minimum along the
+/// ray or no centre.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V limb_share(D d, const ShadeInput& in, const SurfacePoint<V>& point) {
+    const V one = hn::Set(d, 1.0F);
+    if (!(in.inverse_centre_value > 0.0F)) return one;
+    const V g = hn::Div(hn::Mul(point.limb, hn::Set(d, in.inverse_centre_value)), hn::Max(point.a, hn::Set(d, 1e-30F)));
+    return hn::IfThenElse(hn::Gt(point.a, hn::Zero(d)), hn::Min(one, g), one);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SurfacePoint<V> on_plane(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+    const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
+    const V depth = hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / in.largest_depth)));
+    const Vec3<V> normal = splat(d, in.normal);
+    return {depth, normal, hn::Set(d, 1.0F), hn::Neg(dot(normal, ray)), hn::Zero(d), hn::Zero(d)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+    return in.kind == ShadeInput::Kind::quadric ? on_quadric(d, in, column, ray) : on_plane(d, in, column, ray);
+}
+
+/// Whether depth and normal change so little over `stride` columns that a cubic follows them: to 3e-4. L bends a
+/// quadric's section with the row, so its share of change stands for the normal's.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE bool changes_little(D d, const ShadeInput& in, V column, float stride, const SurfacePoint<V>& point) {
+    if (in.kind == ShadeInput::Kind::plane) {
+        const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
+        return hn::AllTrue(d, hn::Gt(hn::Mul(hn::Set(d, 0.15F), u), hn::Set(d, stride * std::abs(in.plane_u_step))));
+    }
+    const V xi = hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
+    const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
+    const V limb_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.limb[2]), hn::Set(d, in.limb[1]));
+    const float step = stride * std::abs(in.xi_step);
+    const auto steady = hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(limb_slope)), hn::Mul(hn::Set(d, 0.25F), point.limb));
+    const auto near =
+        hn::Lt(hn::Set(d, step * std::abs(in.b[1])), hn::Mul(hn::Set(d, 0.15F), hn::Sub(point.against, b)));
+    return hn::AllTrue(d, hn::And(hn::And(steady, near), hn::Le(b, hn::Zero(d))));
+}
+
+/// Mean squared growth of the arguments of the two sine families, per unit frequency (m^2), for a step of the surface
+/// point.
+template <class V>
+struct Footprint {
+    V x, y;
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Footprint<V> footprint(D d, float vertical_variation, V x2, V y2, V z2) {
+    // Mean squares of the phase functions' slopes: pi/4 cos and pi u/2 cos.
+    const V across = hn::Set(d, 0.30842514F);
+    const V up = hn::Mul(hn::Set(d, 1.2337006F * vertical_variation * vertical_variation), z2);
+    return {hn::Add(x2, hn::MulAdd(across, y2, up)), hn::Add(y2, hn::MulAdd(across, x2, up))};
+}
+
+/// Footprints of a whole pixel, and of the step to the next column alone.
+template <class V>
+struct PixelFootprint {
+    Footprint<V> pixel, column;
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PixelFootprint<V> pixel_footprint(D d, const ShadeInput& in, const SurfacePoint<V>& point,
+                                             const Vec3<V>& ray, V length) {
+    // How far the surface point moves from a column and from a row to the next: dP = k (e - d (N.e)/(N.d)).
+    const Vec3<V> ray_step = splat(d, in.ray_step), along_row = splat(d, in.along_row);
+    const V least_against =
+        hn::Mul(hn::Set(d, 1e-3F), hn::Mul(length, hn::Mul(point.inverse_length, dot(point.normal, point.normal))));
+    const V inverse =
+        hn::CopySign(hn::Div(point.depth, hn::Max(hn::Abs(point.against), least_against)), hn::Neg(point.against));
+    const V tilt_x = hn::Mul(dot(point.normal, ray_step), inverse),
+            tilt_z = hn::Mul(dot(point.normal, along_row), inverse);
+    const auto squared_step = [&](const Vec3<V>& step, V tilt) {
+        const V x = hn::NegMulAdd(tilt, ray.x, hn::Mul(point.depth, step.x));
+        const V y = hn::NegMulAdd(tilt, ray.y, hn::Mul(point.depth, step.y));
+        const V z = hn::NegMulAdd(tilt, ray.z, hn::Mul(point.depth, step.z));
+        return Vec3<V>{hn::Mul(x, x), hn::Mul(y, y), hn::Mul(z, z)};
+    };
+    const Vec3<V> column = squared_step(ray_step, tilt_x), row = squared_step(along_row, tilt_z);
+    const float u = in.paint->texture->vertical;
+    return {footprint(d, u, hn::Add(column.x, row.x), hn::Add(column.y, row.y), hn::Add(column.z, row.z)),
+            footprint(d, u, column.x, column.y, column.z)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace quadrig
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,125 @@
+/// Elementary functions for any vector width, with their errors.
+// Per-target include guard: this header is compiled once for every instruction set.
+#if defined(QUADRIG_VECTOR_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef QUADRIG_VECTOR_MATH_INL_H_
+#undef QUADRIG_VECTOR_MATH_INL_H_
+#else
+#define QUADRIG_VECTOR_MATH_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+
+HWY_BEFORE_NAMESPACE();
+namespace quadrig {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct Vec3 {
+    V x, y, z;
+};
+
+template <class V>
+HWY_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3<V> splat(D d, const std::array<float, 3>& v) {
+    return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+}
+/// a + f b
+template <class V>
+HWY_INLINE Vec3<V> mul_add(V f, const Vec3<V>& b, const Vec3<V>& a) {
+    return {hn::MulAdd(f, b.x, a.x), hn::MulAdd(f, b.y, a.y), hn::MulAdd(f, b.z, a.z)};
+}
+
+/// f sin(2 pi t) for some factor f; relative to f, |error| <= 1e-5 for |t| up to about 1e3. On the nearest half turn, a
+/// quadratic in the parabola q = r (1/2 - |r|), which has the sine's zeros; minimax.
+template <class V>
+struct Sine {
+    V half, k0, k1, k2;
+
+    template <class D>
+    HWY_INLINE Sine(D d, float factor)
+        : half(hn::Set(d, 0.5F)),
+          k0(hn::Set(d, factor * 12.568868594F)),
+          k1(hn::Set(d, factor * 50.02489346F)),
+          k2(hn::Set(d, factor * 77.939324312F)) {}
+
+    /// The parabola at t, and the sine's value over it.
+    struct Parts {
+        V parabola, over;
+    };
+    [[nodiscard]] HWY_INLINE Parts of_reduced(V r) const {
+        const V q = hn::Mul(r, hn::Sub(half, hn::Abs(r))), size = hn::Abs(q);
+        return {q, hn::MulAdd(size, hn::MulAdd(size, k2, k1), k0)};
+    }
+    [[nodiscard]] static HWY_INLINE V reduced(V t) { return hn::Sub(t, hn::Round(t)); }
+    [[nodiscard]] HWY_INLINE Parts at(V t) const { return of_reduced(reduced(t)); }
+    /// sum + f sin(2 pi t)
+    [[nodiscard]] HWY_INLINE V add(V t, V sum) const {
+        const Parts parts = at(t);
+        return hn::MulAdd(parts.parabola, parts.over, sum);
+    }
+    /// sum + amplitude f sin(2 pi t)
+    [[nodiscard]] HWY_INLINE V add(V t, V amplitude, V sum) const {
+        const Parts parts = at(t);
+        return hn::MulAdd(hn::Mul(amplitude, parts.parabola), parts.over, sum);
+    }
+};
+
+/// 1 / sqrt(x) for x > 0, relative error <= 7e-7, without the two slowest instructions there are: Newton's iteration
+/// from the exponent halved (Walczyk, Moroz, Cieslinski, "Improving the accuracy of the fast inverse square root",
+/// 2021). Unlike the processors' own estimates it has the same bits on every machine.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V inverse_sqrt(D d, V x) {
+    const hn::RebindToSigned<D> di;
+    const auto halved_exponent = hn::ShiftRight<1>(hn::BitCast(di, x));
+    V y = hn::BitCast(d, hn::Sub(hn::Set(di, 0x5F1FFFF9), halved_exponent));
+    y = hn::Mul(y, hn::NegMulAdd(hn::Mul(hn::Set(d, 0.703952253F), x), hn::Mul(y, y), hn::Set(d, 1.68191391F)));
+    return hn::Mul(y, hn::NegMulAdd(hn::Mul(hn::Set(d, 0.5F), x), hn::Mul(y, y), hn::Set(d, 1.5F)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V vector_length(D d, const Vec3<V>& v) {
+    const V squared = dot(v, v);
+    return hn::Mul(squared, inverse_sqrt(d, squared));
+}
+
+/// 2^-y for y >= 0, relative error <= 3e-6; 0 beyond 126.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V exp2_minus(D d, V y) {
+    const hn::RebindToSigned<D> di;
+    const V x = hn::Neg(hn::Min(y, hn::Set(d, 126.0F)));
+    const V whole = hn::Round(x);
+    const V r = hn::Sub(x, whole);
+    V p = hn::MulAdd(r, hn::Set(d, 0.00956992228F), hn::Set(d, 0.05591770886F));
+    p = hn::MulAdd(r, p, hn::Set(d, 0.24024747254F));
+    p = hn::MulAdd(r, p, hn::Set(d, 0.69312183686F));
+    p = hn::MulAdd(r, p, hn::Set(d, 0.99999926155F));
+    const auto exponent = hn::ShiftLeft<23>(hn::ConvertTo(di, whole));
+    return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
+}
+
+/// 8-bit sRGB of linear light (IEC 61966-2-1): a quartic in x^(1/4), within 0.01 of a step; the linear toe below it.
+template <class D>
+HWY_INLINE auto srgb8(D d, hn::Vec<D> linear) {
+    const hn::RebindToSigned<D> di;
+    const auto x = hn::Clamp(linear, hn::Zero(d), hn::Set(d, 1.0F));
+    const auto q = hn::Sqrt(hn::Sqrt(x));
+    auto p = hn::MulAdd(q, hn::Set(d, 20.73650632582F), hn::Set(d, -85.54567783457F));
+    p = hn::MulAdd(q, p, hn::Set(d, 286.27678208318F));
+    p = hn::MulAdd(q, p, hn::Set(d, 50.01750037572F));
+    p = hn::MulAdd(q, p, hn::Set(d, -16.47634412907F));
+    const auto toe = hn::Mul(x, hn::Set(d, 12.92F * 255.0F));
+    const auto value = hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.0031308F)), toe, p);
+    return hn::ConvertTo(di, hn::Add(value, hn::Set(d, 0.5F)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace quadrig
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

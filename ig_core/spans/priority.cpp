@@ -141,8 +141,8 @@ void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, do
 
 Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, CrossingPieces& pieces) {
     const Surface &sa = a.surface, &sb = b.surface;
-    if (sa.far_u > sb.near_u) return Priority::front;
-    if (sb.far_u > sa.near_u) return Priority::behind;
+    if (sa.far_u > (1.0 + kSameDepth) * sb.near_u) return Priority::front;
+    if (sb.far_u > (1.0 + kSameDepth) * sa.near_u) return Priority::behind;
     // Surfaces of one object lie side by side.
     if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
 

@@ -13,6 +13,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// be long.
 constexpr double kLeastShearCosine = 0.15;
 
+/// Rounding of d'Md for unit d: the largest entry of M is about 1.
+constexpr double kFlat = 1e-14;
+
 /// Discriminant of Q along a line given by direction and moment (q x direction) about the anchor, as a bilinear form of
 /// two lines.
 double line_discriminant(const EyeSolid& s, const glm::dvec3& direction_a, const glm::dvec3& moment_a,
@@ -27,12 +30,13 @@ struct Interval {
     double from, to;
 };
 
-/// Where Q <= 0 along a line with A t^2 + 2 B t + C and discriminant D: one interval, or two when A < 0.
-int inside_quadric(double a, double b, double c, double d, std::array<Interval, 2>& out) {
+/// Where Q <= 0 along a line with A t^2 + 2 B t + C and discriminant D: one interval, or two when A < 0. An A of `flat`
+/// or less may be rounding.
+int inside_quadric(double a, double b, double c, double d, double flat, std::array<Interval, 2>& out) {
     a += 0.0;  // -0 would flip the sign of an infinite root
     if (!(d > 0.0)) {
-        // Then A and C have one sign, but either may be rounding: along a cylinder's axis A is.
-        if (a > 0.0 || c > 0.0) return 0;
+        // Then A and C have one sign, but along a cylinder's axis A is rounding.
+        if (a > flat || c > 0.0) return 0;
         out[0] = {-kInfinity, kInfinity};
         return 1;
     }
@@ -182,7 +186,8 @@ LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dv
     std::array<Interval, 2> pieces;
     const int count = inside_quadric(value(e.m, direction), value(e.m, origin, direction) + glm::dot(e.w, direction),
                                      value(e.m, origin) + 2.0 * glm::dot(e.w, origin) + e.c,
-                                     line_discriminant(e, direction, moment, direction, moment), pieces);
+                                     line_discriminant(e, direction, moment, direction, moment),
+                                     kFlat * glm::dot(direction, direction), pieces);
     for (int i = 0; i < count; ++i) {
         const Interval& piece = pieces[static_cast<std::size_t>(i)];
         const LineSegment segment{std::max(from, piece.from), std::min(to, piece.to)};
@@ -208,7 +213,8 @@ int surface_at(const EyeSolid& e, double xi, double zeta) {
         }
     }
     std::array<Interval, 2> pieces;
-    const int count = inside_quadric(value(e.m, d), glm::dot(e.v, d), e.s, value(e.limb, d), pieces);
+    const int count =
+        inside_quadric(value(e.m, d), glm::dot(e.v, d), e.s, value(e.limb, d), kFlat * glm::dot(d, d), pieces);
     for (int i = 0; i < count; ++i) {
         const Interval& piece = pieces[static_cast<std::size_t>(i)];
         if (std::max(from, piece.from) >= std::min(to, piece.to)) continue;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <ostream>
@@ -8,14 +9,17 @@
 namespace quadrig::config {
 namespace {
 
-/// A double in the fewest digits that read back the same.
+/// A double in the fewest digits that read back the same, and in a form that TOML does not take for an integer.
 struct Exact {
     double number;
 };
 std::ostream& operator<<(std::ostream& out, Exact exact) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), exact.number).ptr;
-    return out.write(text.data(), end - text.data());
+    out.write(text.data(), end - text.data());
+    const bool looks_like_integer =
+        std::all_of(text.data(), end, [](char c) { return c == '-' || ('0' <= c && c <= '9'); });
+    return looks_like_integer ? out << ".0" : out;
 }
 
 /// A TOML basic string.

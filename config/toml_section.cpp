@@ -92,7 +92,9 @@ void TomlSection::refuse(std::string_view name, std::size_t index, const std::st
 void TomlSection::refuse(const std::string& complaint) const { throw FileError(*file_, line(), key_, complaint); }
 
 double TomlSection::number_at(const toml::node& node, const std::string& key, const NumberRule& rule) const {
-    const std::optional<double> number = node.is_number() ? node.value<double>() : std::nullopt;
+    std::optional<double> number;
+    if (node.is_floating_point()) number = node.as_floating_point()->get();
+    if (node.is_integer()) number = static_cast<double>(node.as_integer()->get());
     if (!number || !std::isfinite(*number) || !rule.holds(*number)) refuse(node, key, rule.expected);
     return *number;
 }

@@ -31,7 +31,8 @@ struct Interval {
 int inside_quadric(double a, double b, double c, double d, std::array<Interval, 2>& out) {
     a += 0.0;  // -0 would flip the sign of an infinite root
     if (!(d > 0.0)) {
-        if (a > 0.0 || (a == 0.0 && c > 0.0)) return 0;
+        // Then A and C have one sign, but either may be rounding: along a cylinder's axis A is.
+        if (a > 0.0 || c > 0.0) return 0;
         out[0] = {-kInfinity, kInfinity};
         return 1;
     }
@@ -69,7 +70,10 @@ RowRoots roots_on_row(const RowConic& conic, double zeta) {
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
              bool infinity, EyeSolid& out) {
-    const glm::dvec3 anchor = eye_from_scene * (solid.anchor.metres - eye.metres);
+    // A cylinder without end is anchored where it is nearest to the eye, not where its file's numbers are small.
+    const double along = infinity ? glm::dot(solid.axis, eye.metres - solid.anchor.metres) : 0.0;
+    out.scene_anchor = {solid.anchor.metres + along * solid.axis};
+    const glm::dvec3 anchor = eye_from_scene * (out.scene_anchor.metres - eye.metres);
     const bool shear = anchor.y > kLeastShearCosine * glm::length(anchor);
     out.x0 = shear ? anchor.x / anchor.y : 0.0;
     out.z0 = shear ? anchor.z / anchor.y : 0.0;
@@ -95,12 +99,16 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
     out.v = out.w - out.m * out.anchor;
     out.s = solid.quadric_at(eye);
     set_forms(out);
+    out.flat_side.reset();
+    for (const SolidPlane& side : solid.flat_sides)
+        if (const double at_eye = solid.plane_at(side, eye); at_eye < 0.0)
+            out.flat_side = EyePlane{covector(side.normal), side.offset, at_eye, 0, false};
 
     out.plane_count = 0;
     for (const SolidPlane& plane : solid.planes)
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            covector(plane.normal), plane.offset, solid.plane_at(plane, eye),
-            plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
+            covector(plane.normal), plane.offset + along * glm::dot(plane.normal, solid.axis),
+            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
     if (near_plane)
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
             {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};

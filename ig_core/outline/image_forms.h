@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "ig_core/geometry/symmetric.h"
 #include "ig_core/scene/solid.h"
@@ -65,7 +66,8 @@ struct RowRoots {
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 
 struct EyeSolid {
-    double x0 = 0, z0 = 0;  ///< image point of the sheared Y axis
+    double x0 = 0, z0 = 0;    ///< image point of the sheared Y axis
+    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
     glm::dvec3 anchor{0.0};
     Sym3 m, adjugate;
     double determinant = 0;
@@ -76,6 +78,7 @@ struct EyeSolid {
     Sym3 limb;          ///< L
     Sym3 tangent;  ///< planes l.p = 0 through the eye touch the quadric where l' tangent l = 0 (dual of the limb, over
                    ///< s)
+    std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
     int plane_count = 0;
     std::array<EyePlane, kMaxEyePlanes> planes;
 };

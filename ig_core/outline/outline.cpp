@@ -16,6 +16,9 @@ constexpr double kSliver = 1e-12;
 /// Boundaries of a band that come out of order by more than this are solved again on their row.
 constexpr double kDisorder = 1e-11;
 
+/// A discriminant this small beside its terms may be zero.
+constexpr double kTouch = 1e-12;
+
 struct Candidate {
     double xi;
     Boundary boundary;
@@ -24,6 +27,15 @@ constexpr std::size_t kMaxCandidates = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlan
 
 double line_on_row(const glm::dvec3& line, double zeta) { return -(line.y + line.z * zeta) / line.x; }
 
+/// Whether the row is clear of the curve by more than rounding. A wedge's edge is a double line: it is touched
+/// everywhere.
+bool misses_row(const RowConic& conic, double zeta) {
+    const double discriminant = conic.discriminant_at(zeta);
+    if (discriminant >= 0.0) return false;
+    const double beta = conic.beta_at(zeta);
+    return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
+}
+
 /// Every place on a row where the visible surface may change, sorted.
 std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
     std::size_t count = 0;
@@ -31,7 +43,7 @@ std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Ca
         if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
     };
     for (std::uint16_t i = 0; i < outline.curves.size(); ++i) {
-        if (outline.curves[i].discriminant_at(zeta) < 0.0) continue;
+        if (misses_row(outline.curves[i], zeta)) continue;
         const RowRoots roots = roots_on_row(outline.curves[i], zeta);
         add(roots.rising, {Boundary::Kind::rising, i});
         add(roots.falling, {Boundary::Kind::falling, i});

@@ -16,12 +16,27 @@ struct LinearImage {
     std::vector<float> rgb;
 };
 
-/// Ids and depth at the pixel centres. `ties`, where given, is set to 1 at each pixel whose answer changes when the ray
-/// moves by 1e-6 pixel, or where two depths agree within 1e-9 relative: there more than one answer is right.
+/// More than one answer is right where it changes when the ray moves by 1e-6 pixel. Where it does not, but two depths
+/// agree within 1e-9 relative, file order decides, if rounding lets it.
+inline constexpr std::uint8_t kTie = 1, kTieInDepth = 2;
+
+/// Ids and depth at the pixel centres. `ties`, where given, is set to kTie, kTieInDepth or 0 at each.
 GroundTruth ground_truth(const Scene& scene, const View& view, std::vector<std::uint8_t>* ties = nullptr);
 
 /// The picture by supersampling: `samples` x `samples` rays a pixel, regular grid, mean in linear light.
 LinearImage picture(const Scene& scene, const View& view, const Environment& environment, int samples);
+
+/// The limit of supersampling: each pixel by itself, in squares that are quartered wherever their corners and middle
+/// show other surfaces or colours, until its mean changes by less than `tolerance` (linear light) from one quartering
+/// to the next, or `deepest` quarterings are done. All pixels are quartered three times: what is too thin to be met by
+/// any of those 145 rays is not found.
+struct ConvergedPicture {
+    LinearImage image;
+    int open_pixels = 0;    ///< those whose mean still changed by `tolerance` or more at the deepest quartering
+    std::int64_t rays = 0;  ///< what it cost
+};
+ConvergedPicture converged_picture(const Scene& scene, const View& view, const Environment& environment,
+                                   double tolerance = 1e-4, int deepest = 9);
 
 /// Linear light to 8-bit sRGB, rounded to nearest (IEC 61966-2-1), into an image of the same size.
 void to_srgb8(const LinearImage& linear, const FrameImage& image);

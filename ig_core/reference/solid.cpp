@@ -137,7 +137,8 @@ std::array<Stretch<Scalar>, 2> inside_quadric(const Quadric<Scalar>& q, const Ve
     const Scalar discriminant = b * b - a * c;
     const long double rounding = Limits<Scalar>::touch * squared_length(direction);
     if (discriminant <= rounding * (q.v_scale * q.v_scale + q.m_scale * q.s_scale)) {
-        const bool inside_everywhere = c < 0 && a <= rounding * q.m_scale;
+        const long double flat = rounding * q.m_scale;
+        const bool inside_everywhere = a < -flat || (a <= flat && c < 0) || q.m_scale + q.v_scale + q.s_scale == 0;
         return {inside_everywhere ? Stretch<Scalar>{from, to} : Stretch<Scalar>{}, {}};
     }
     // Here b or a is not zero, and no root is the difference of nearly equal numbers.
@@ -189,22 +190,24 @@ Solid<Quad> solid_about_eye(const Object& object, const ScenePoint& eye) {
     return solid;
 }
 
-Solid<long double> rounded(const Solid<Quad>& solid) {
+template <class Scalar>
+Solid<Scalar> rounded(const Solid<Quad>& solid) {
     const auto round = [](const Vector<Quad>& p) {
-        return Vector<long double>{static_cast<long double>(p[0]), static_cast<long double>(p[1]),
-                                   static_cast<long double>(p[2])};
+        return Vector<Scalar>{static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2])};
     };
-    Solid<long double> result;
-    Quadric<long double>& q = result.quadric;
-    for (std::size_t i = 0; i < 6; ++i) q.m[i] = static_cast<long double>(solid.quadric.m[i]);
+    Solid<Scalar> result;
+    Quadric<Scalar>& q = result.quadric;
+    for (std::size_t i = 0; i < 6; ++i) q.m[i] = static_cast<Scalar>(solid.quadric.m[i]);
     q.v = round(solid.quadric.v);
-    q.s = static_cast<long double>(solid.quadric.s);
+    q.s = static_cast<Scalar>(solid.quadric.s);
     q.m_scale = length(q.m), q.v_scale = length(q.v), q.s_scale = magnitude(q.s);
     for (const auto& h : solid.half_spaces)
-        result.half_spaces.push_back({round(h.normal), static_cast<long double>(h.offset), h.surface});
-    if (solid.centre_value) result.centre_value = static_cast<long double>(*solid.centre_value);
+        result.half_spaces.push_back({round(h.normal), static_cast<Scalar>(h.offset), h.surface});
+    if (solid.centre_value) result.centre_value = static_cast<Scalar>(*solid.centre_value);
     return result;
 }
+template Solid<long double> rounded(const Solid<Quad>&);
+template Solid<double> rounded(const Solid<Quad>&);
 
 template <class Scalar>
 std::optional<Entry<Scalar>> entry(const Solid<Scalar>& solid, const Vector<Scalar>& direction) {

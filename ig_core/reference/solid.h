@@ -81,8 +81,9 @@ Vector<Scalar> ray_direction(const View& view, Scalar column, Scalar row) {
 /// The object's solid seen from `eye`. A hill gets its sheet as one more half-space, which has no face.
 Solid<Quad> solid_about_eye(const Object& object, const ScenePoint& eye);
 
-/// The same solid rounded once.
-Solid<long double> rounded(const Solid<Quad>& solid);
+/// The same solid rounded once. Defined for long double and double.
+template <class Scalar>
+Solid<Scalar> rounded(const Solid<Quad>& solid);
 
 /// The point where the ray enters the solid, if it is deeper than kNearDepth. Nothing for a ray that misses, only
 /// touches, starts inside or enters nearer than that. Defined for long double and Quad.

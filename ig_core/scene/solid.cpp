@@ -117,6 +117,56 @@ Quad3 point_among_planes(const QuadQuadric& q, const std::vector<BoundingPlane>&
     return point;
 }
 
+bool parallel(const Quad (&a)[3], const Quad (&b)[3]) {
+    const auto square = [](const Quad(&v)[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+    const Quad cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return square(cross) <= static_cast<Quad>(1e-60) * square(a) * square(b);
+}
+
+/// The planes of a quadric that changes along one direction n only: m t^2 + 2 g t + c, t = n.(p - anchor), m >= 0.
+/// `w` and `c` are those about the anchor.
+std::vector<SolidPlane> flat_sides(const QuadQuadric& q, const Quad (&w)[3], Quad c) {
+    int lead = 0;
+    for (int i = 1; i < 3; ++i)
+        if (magnitude(q.m[i][i]) > magnitude(q.m[lead][lead])) lead = i;
+    const bool linear = q.m[lead][lead] == 0;
+    const Quad(&along)[3] = linear ? q.v : q.m[lead];
+    if (q.m[lead][lead] < 0 || !parallel(q.v, along)) return {};
+    for (const auto& row : q.m)
+        if (!parallel(row, along)) return {};
+    const auto d = [](Quad v) { return static_cast<double>(v); };
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(d(along[0]), d(along[1]), d(along[2])));
+    if (!(glm::dot(normal, normal) > 0.5)) return {};  // constant
+    const double m = d(q.m[0][0] + q.m[1][1] + q.m[2][2]), g = glm::dot(normal, {d(w[0]), d(w[1]), d(w[2])});
+    if (linear) return {{-normal, d(c) / (-2.0 * g), 0}};
+    const double half2 = g * g - m * d(c);
+    if (!(half2 > 0.0)) return {};
+    const double half = std::sqrt(half2);
+    return {{normal, (g + half) / m, 0}, {-normal, (half - g) / m, 0}};
+}
+
+/// A direction along which the quadric does not change at all, zero if there is none: the axis of a cylinder.
+glm::dvec3 axis_of(const QuadQuadric& q) {
+    const auto square = [](const Quad3& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; };
+    const std::array<const Quad*, 4> rows{q.m[0], q.m[1], q.m[2], q.v};
+    Quad3 axis{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Quad *a = rows[i], *b = rows[k];
+            const Quad3 u{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+            if (square(u) > square(axis)) axis = u;
+        }
+    }
+    for (const Quad* row : rows) {
+        const Quad change = row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2];
+        const Quad terms = square({row[0], row[1], row[2]}) * square(axis);
+        if (change * change > static_cast<Quad>(1e-60) * terms) return glm::dvec3(0.0);
+    }
+    const glm::dvec3 along(static_cast<double>(axis[0]), static_cast<double>(axis[1]), static_cast<double>(axis[2]));
+    const double length = glm::length(along);
+    return length > 0.0 ? along / length : glm::dvec3(0.0);
+}
+
 bool positive_definite(const Sym3& m, const Sym3& adjugate, double determinant) {
     return m.xx > 0 && m.yy > 0 && m.zz > 0 && adjugate.xx > 0 && adjugate.yy > 0 && adjugate.zz > 0 && determinant > 0;
 }
@@ -155,6 +205,8 @@ void set_general(const GeneralQuadric& general, const std::vector<BoundingPlane>
                       d(cofactor(0, 1)), d(cofactor(0, 2)), d(cofactor(1, 2))};
     solid.determinant = d(q.m[0][0] * cofactor(0, 0) + q.m[0][1] * cofactor(0, 1) + q.m[0][2] * cofactor(0, 2));
     solid.c = d(c);
+    solid.flat_sides = flat_sides(q, w, c);
+    solid.axis = axis_of(q);
     solid.ellipsoid = rank == 3 && positive_definite(solid.m, solid.adjugate, solid.determinant);
     solid.centre_value = rank == 3 ? std::abs(solid.c) : 0.0;
     if (solid.ellipsoid) {

@@ -33,6 +33,12 @@ struct Solid {
     /// |Q(centre)| for the limb function (image model: g), 0 for a quadric without a centre or through its own.
     double centre_value = 0.0;
     std::vector<SolidPlane> planes;
+    /// The planes that the quadric consists of, if it is a half-space or the space between two parallel planes. Kept
+    /// side positive, as a bounding plane's.
+    std::vector<SolidPlane> flat_sides;
+    /// Unit direction along which the quadric does not change at all, if there is one: any point of the line through
+    /// the anchor is as good an anchor.
+    glm::dvec3 axis{0.0};
     bool ellipsoid = false;      ///< M positive definite: bounded by itself
     bool may_be_endless = true;  ///< false where quadric and planes are known to enclose a finite volume
     double radius = 0.0;         ///< m, sphere about the anchor that holds the solid; infinity where none is known

@@ -85,7 +85,7 @@ void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> l
     std::uint32_t group = ~0U;
     float red = 0, green = 0, blue = 0;
     for (const PartialLayer& layer : layers) {
-        // Layers of one object lie side by side: what one of them leaves uncovered the next may fill, so both start
+        // Layers of one group lie side by side: what one of them leaves uncovered the next may fill, so both start
         // from the light that reached the group. Otherwise the background would show along their common edge.
         if (layer.group != group) std::copy_n(through, cells, at_group);
         group = layer.group;

@@ -31,6 +31,15 @@ SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
     return range;
 }
 
+/// Whether neither span hides any of the other: faces of one object, and objects that abut.
+bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
+    constexpr double kRounding = 1e-6;  // columns
+    if (a.surface.outline != nullptr && a.surface.outline == b.surface.outline) return true;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
+        if (std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]) > kRounding) return false;
+    return true;
+}
+
 void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step,
                  ShadeInput& in) {
     const EyeSolid& e = span.surface.outline->solid;
@@ -51,7 +60,7 @@ void set_quadric(const FrameShading& frame, const RowSpan& span, double x, doubl
     const Sym3& m = solid.m;
     in.m = {static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz),
             static_cast<float>(m.xy), static_cast<float>(m.xz), static_cast<float>(m.yz)};
-    in.eye_from_anchor = to_float(frame.view->eye.metres - solid.anchor.metres);
+    in.eye_from_anchor = to_float(frame.view->eye.metres - e.scene_anchor.metres);
     in.gradient = to_float(solid.w);
 }
 
@@ -126,6 +135,22 @@ void RowShader::plan(const RowSweep& sweep) {
     buffer_.resize(used + kShadePadding);
 }
 
+void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
+    partial_.clear();
+    partial_layers_.clear();
+    for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+        const RowSpan& span = sweep.spans[sweep.layers[i]];
+        // Beside all layers from some group on: it changes nothing to draw it with that group.
+        std::size_t place = partial_.size();
+        std::uint32_t group = i;
+        for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
+            if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
+        while (place > 0 && group != i && partial_[place - 1].group != group) --place;
+        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {0, group, &span});
+        partial_layers_.insert(partial_layers_.begin() + static_cast<std::ptrdiff_t>(place), i);
+    }
+}
+
 void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba) {
     plan(sweep);
     // In buffer order: what a job writes past its end is overwritten by the next.
@@ -145,13 +170,9 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
             continue;
         }
+        group_layers(row, sweep, run);
         for (int column = run.from; column < run.to; ++column) {
-            partial_.clear();
-            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
-                const RowSpan& span = sweep.spans[sweep.layers[i]];
-                const std::uint32_t group = span.surface.outline != nullptr ? span.surface.priority : ~0U - 1U - i;
-                partial_.push_back({sample(i, column), group, &span});
-            }
+            for (std::size_t i = 0; i < partial_.size(); ++i) partial_[i].sample = sample(partial_layers_[i], column);
             composite_partial(buffer_, partial_, column, row.sub_lines, row_);
         }
     }

@@ -29,12 +29,15 @@ class RowShader {
 
   private:
     void plan(const RowSweep& sweep);
+    /// Puts a run's layers into `partial_`, those that lie side by side in one group.
+    void group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run);
 
     std::vector<ShadeJob> jobs_;
     std::vector<std::int32_t> job_of_span_;
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
     std::vector<std::uint32_t> samples_;
     std::vector<PartialLayer> partial_;
+    std::vector<std::uint32_t> partial_layers_;  // parallel to partial_: indices into RowSweep::layers
     ShadeBuffer buffer_, row_;
 };
 

@@ -24,7 +24,8 @@ void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> s
                      std::size_t column);
 
 /// A layer of a pixel that it covers in part: its sample, and the share of each cell that it covers. A cell is a
-/// quarter of a sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object).
+/// quarter of a sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object, objects that
+/// abut).
 inline constexpr int kCellsPerLine = 4;
 inline constexpr int kMaxCells = kCellsPerLine * kMaxSubScanLines;
 struct PartialLayer {

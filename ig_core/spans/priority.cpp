@@ -12,6 +12,8 @@ namespace {
 constexpr double kCrossingWidth = 1.0 / 16.0;
 /// An overlap narrower than this (columns) is rounding where two spans abut: it has no order.
 constexpr double kLeastOverlap = 1.0 / 512.0;
+/// Depths that differ by less than this share are the same: faces in one plane are in file order.
+constexpr double kSameDepth = 1e-13;
 /// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
 constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
 constexpr int kMaxSplits = 8;
@@ -39,16 +41,19 @@ class Crossings {
     struct End {
         double column;
         DepthOnLine::Sample a, b;
-        bool in_front;
+        bool in_front, same;
     };
 
     [[nodiscard]] End end(double column) const {
         const DepthOnLine::Sample a = a_.at(column), b = b_.at(column);
-        return {column, a, b, a.u > b.u || (a.u == b.u && a_wins_ties_)};
+        const double rounding = kSameDepth * std::abs(b.u);
+        const bool same = std::abs(a.u - b.u) <= rounding;
+        return {column, a, b, same ? a_wins_ties_ : a.u > b.u, same};
     }
 
     /// Tangents of the farther surface at both ends, chord of the nearer one: their closest approach decides.
     [[nodiscard]] static bool proven(const End& l, const End& r) {
+        if (l.same && r.same && l.a.slope == r.a.slope && l.b.slope == r.b.slope) return true;  // planes, on one line
         const auto& near_l = l.in_front ? l.a : l.b;
         const auto& near_r = l.in_front ? r.a : r.b;
         const auto& far_l = l.in_front ? l.b : l.a;
@@ -112,8 +117,8 @@ std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b
     for_outer_lines(wide, wide_least, wide_most);
     if (!any) return std::nullopt;
     const auto settled = [&](double narrow_low, double narrow_high) -> std::optional<Priority> {
-        if (wide_least > narrow_high) return a_first ? Priority::front : Priority::behind;
-        if (narrow_low > wide_most) return a_first ? Priority::behind : Priority::front;
+        if (wide_least > (1.0 + kSameDepth) * narrow_high) return a_first ? Priority::front : Priority::behind;
+        if (narrow_low > (1.0 + kSameDepth) * wide_most) return a_first ? Priority::behind : Priority::front;
         return std::nullopt;
     };
     if (const auto proven = settled(narrow.surface.far_u, narrow.surface.near_u)) return proven;
@@ -136,8 +141,8 @@ void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, do
 
 Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, CrossingPieces& pieces) {
     const Surface &sa = a.surface, &sb = b.surface;
-    if (sa.far_u > sb.near_u) return Priority::front;
-    if (sb.far_u > sa.near_u) return Priority::behind;
+    if (sa.far_u > (1.0 + kSameDepth) * sb.near_u) return Priority::front;
+    if (sb.far_u > (1.0 + kSameDepth) * sa.near_u) return Priority::behind;
     // Surfaces of one object lie side by side.
     if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
 

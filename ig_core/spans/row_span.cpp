@@ -18,14 +18,20 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
     const double zeta = z - e.z0;
     xi0_ = row.left - e.x0;
     step_ = row.column_step;
+    const auto on_plane = [&](const EyePlane& plane) {
+        // k (n.d) + b = 0 (Eq 7)
+        u0_ = -(plane.normal.x * xi0_ + plane.normal.y + plane.normal.z * zeta) / plane.at_eye;
+        u1_ = -plane.normal.x * step_ / plane.at_eye;
+    };
     if (surface.kind == Surface::Kind::face) {
-        for (int i = 0; i < e.plane_count; ++i) {
-            const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-            if (plane.surface != surface.surface) continue;
-            // k (n.d) + b = 0 (Eq 7)
-            u0_ = -(plane.normal.x * xi0_ + plane.normal.y + plane.normal.z * zeta) / plane.at_eye;
-            u1_ = -plane.normal.x * step_ / plane.at_eye;
-        }
+        for (int i = 0; i < e.plane_count; ++i)
+            if (e.planes[static_cast<std::size_t>(i)].surface == surface.surface)
+                on_plane(e.planes[static_cast<std::size_t>(i)]);
+        return;
+    }
+    if (e.flat_side) {
+        plane_ = true;
+        on_plane(*e.flat_side);
         return;
     }
     b0_ = e.v.y + e.v.z * zeta, b1_ = e.v.x, inverse_s_ = 1.0 / e.s;

@@ -177,3 +177,16 @@ TEST_CASE("ten thousand objects are read") {
     }
     CHECK(scene_of(text.str()).objects.size() == 10'000);
 }
+
+TEST_CASE("whole numbers beyond 2^53 and beyond 64 bits are written, and read, as the doubles they are") {
+    const std::string object = "[[object]]\nquadric = [1, 1, 1, 0, 0, 0, 0, 0, 0, ";
+    const auto last_of = [](const Scene& scene) {
+        return std::get<GeneralQuadric>(scene.objects[0].shape).coefficients[9];
+    };
+    CHECK(last_of(scene_of(object + "-32780845704879416]\n")) == -32780845704879416.0);
+    for (const double number : {-32780845704879416.0, -35887218674741891072.0, -7.0, 0.0, -1e50}) {
+        Scene scene = scene_of(object + "-1]\n");
+        std::get<GeneralQuadric>(scene.objects[0].shape).coefficients[9] = number;
+        CHECK(last_of(scene_of(written(scene))) == number);
+    }
+}

@@ -171,7 +171,7 @@ TEST_CASE("ties are the pixels on an edge and those where two depths agree, and 
     const auto two_walls = [&](double second) {
         return ties_of(scene_of({box({-80, 10, -80}, {80, 20, 80}), box({-80, second, -80}, {80, 20, 80})}), view);
     };
-    CHECK(two_walls(10 + 1e-9) == std::vector<std::uint8_t>(16, 1));
+    CHECK(two_walls(10 + 1e-9) == std::vector<std::uint8_t>(16, kTieInDepth));
     CHECK(two_walls(10 + 1e-7) == std::vector<std::uint8_t>(16, 0));
 
     // The line where two faces meet: surfaces change there, the object does not.

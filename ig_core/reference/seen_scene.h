@@ -1,0 +1,48 @@
+/// A scene as one eye sees it: its solids about the eye in three precisions, and what bounds them.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "ig_core/reference/candidates.h"
+#include "ig_core/reference/solid.h"
+
+namespace quadrig::reference {
+
+struct SeenScene {
+    SeenScene(const Scene& scene, const View& view);
+
+    const Scene& scene;
+    const View& view;
+    std::vector<Solid<Quad>> exact;          ///< where a sign is in doubt
+    std::vector<Solid<long double>> values;  ///< where a value is asked
+    std::vector<Solid<double>> triage;       ///< for entry_bounds
+    std::vector<BoundingSphere> spheres;
+
+    template <class Scalar>
+    [[nodiscard]] const Solid<Scalar>& solid(std::uint32_t object) const {
+        if constexpr (std::is_same_v<Scalar, Quad>)
+            return exact[object];
+        else
+            return values[object];
+    }
+    /// Scene direction of the ray through an image point.
+    [[nodiscard]] Vector<double> direction(double column, double row) const;
+};
+
+/// Depth of a level plane, if it is in front of the eye.
+template <class Scalar>
+std::optional<Scalar> level_depth(const View& view, double altitude, const Vector<Scalar>& direction) {
+    const Scalar drop = Scalar(altitude) - Scalar(view.eye.metres.z);
+    if (direction[2] == 0 || !(drop / direction[2] > 0)) return std::nullopt;
+    return drop / direction[2];
+}
+
+/// Whether a is in front of b by more than rounding; if not, file order decides.
+template <class Scalar>
+bool in_front(Scalar a, Scalar b) {
+    return b == std::numeric_limits<long double>::infinity() || b - a > Limits<Scalar>::thin * b;
+}
+
+}  // namespace quadrig::reference

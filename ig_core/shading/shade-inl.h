@@ -92,7 +92,7 @@ struct BlockProbe {
 };
 
 /// Samples are taken a little beyond a surface's ends too, where its equation goes on; near a limb nothing is smooth.
-HWY_INLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& samples) {
+HWY_NOINLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& samples) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const auto stride = static_cast<float>(samples.stride);
@@ -131,7 +131,7 @@ HWY_INLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& samp
 }
 
 /// A smooth block: its samples shaded, the rest interpolated.
-HWY_INLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, std::size_t count, ShadeBuffer& buffer,
+HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, std::size_t count, ShadeBuffer& buffer,
                              std::size_t offset) {
     const hn::ScalableTag<float> d;
     const std::size_t n = hn::Lanes(d);
@@ -157,7 +157,7 @@ HWY_INLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, 
 }
 
 /// Sums of the texture's first `terms` terms on a block.
-HWY_INLINE void sample_slow_terms(const ShadeInput& in, const BlockSamples& samples, int terms, SlowTerms& slow) {
+HWY_NOINLINE void sample_slow_terms(const ShadeInput& in, const BlockSamples& samples, int terms, SlowTerms& slow) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     slow.count = terms;

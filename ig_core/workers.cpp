@@ -1,5 +1,8 @@
 #include "ig_core/workers.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 namespace quadrig {
 
 Workers::Workers(int count) {
@@ -13,7 +16,18 @@ Workers::~Workers() {
     for (std::thread& thread : threads_) thread.join();
 }
 
+void Workers::match_scheduling() {
+    const int policy = sched_getscheduler(0);
+    if (policy == policy_) return;
+    policy_ = policy;
+    sched_param parameter{};
+    if (policy < 0 || sched_getparam(0, &parameter) != 0) return;
+    for (std::thread& thread : threads_)
+        pthread_setschedparam(thread.native_handle(), policy & ~SCHED_RESET_ON_FORK, &parameter);
+}
+
 void Workers::run(int blocks, const std::function<void(int, int)>& task) {
+    match_scheduling();
     task_ = &task;
     blocks_ = blocks;
     next_block_.store(0, std::memory_order_relaxed);

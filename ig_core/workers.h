@@ -20,10 +20,12 @@ class Workers {
     [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
     /// Calls task(block, worker) for every block in 0..blocks-1, in any order, on all workers; returns when all are
-    /// done. `task` must not throw.
+    /// done. `task` must not throw. Workers run with the caller's scheduling policy and priority, as far as the system
+    /// lets them: a frame is on time only if all of its threads are.
     void run(int blocks, const std::function<void(int block, int worker)>& task);
 
   private:
+    void match_scheduling();
     void work(int worker);
     void claim_blocks(int worker);
 
@@ -34,6 +36,7 @@ class Workers {
     std::atomic<std::uint32_t> generation_{0};
     std::atomic<int> busy_{0};
     bool stop_ = false;
+    int policy_ = 0;  ///< the caller's at the last run; SCHED_OTHER
 };
 
 }  // namespace quadrig

@@ -83,7 +83,7 @@ def takeoff():
 
     parts = [texture("grass", 330.0, 6, dice, step=2.6), texture("hillside", 260.0, 5, dice, 0.3), texture("rock", 1500.0, 5, dice, 0.3),
              texture("foliage", 7.0, 5, dice, 0.75), texture("copse", 26.0, 4, dice, 0.75), texture("cumulus", 420.0, 5, dice, 0.6, (4.0, 1.0)),
-             texture("high-cloud", 9000.0, 5, dice, 0.0, (12.0, 5.0))]
+             texture("high-cloud", 9000.0, 4, dice, 0.0, (12.0, 5.0))]
     # The grass goes on up the downs, in nearly its own colour: no seam where they rise.
     parts += downs.objects(dice, (0.33, 0.42, 0.15), "grass", 0.6)
     parts += west.objects(dice, (0.35, 0.42, 0.16), "grass", 0.6)
@@ -107,22 +107,22 @@ def takeoff():
     for i in range(22):  # woods along both sides of the runway
         t = dice.uniform(0.0, 0.6)
         side = dice.choice((-1.0, 1.0))
-        grove(-136.0 - 320.0 * t + side * dice.uniform(55, 140), -71.0 - 1000.0 * t + dice.uniform(-40, 40), 24.0, 10, 10.0)
+        grove(-136.0 - 320.0 * t + side * dice.uniform(55, 140), -71.0 - 1000.0 * t + dice.uniform(-40, 40), 22.0, 7, 10.0)
     for i in range(12):  # round the apron
         bearing = math.radians(dice.uniform(190, 390))
-        grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 26.0, 10, 9.0)
-    for i in range(70):  # on the downs behind the apron
+        grove(-40 + 120 * math.sin(bearing), 120 * math.cos(bearing), 24.0, 7, 9.0)
+    for i in range(45):  # on the downs behind the apron
         x, y, _ = dice.choice(west.hills)
         plant(x + dice.gauss(0, 130), y + dice.gauss(0, 130), dice.uniform(8, 14))
-    for i in range(44):  # groves under the climb-out and along the valley
+    for i in range(40):  # groves under the climb-out and along the valley
         ahead = dice.uniform(-350.0, 1700.0)
         side = dice.choice((-1.0, 1.0))
         x, y = climb_out(ahead, side * (90.0 + dice.random() * (260.0 + 0.3 * max(0.0, ahead))))
-        grove(x, y, 26.0, 10, 13.0)
-    for i in range(100):  # single trees on the downs
+        grove(x, y, 24.0, 6, 13.0)
+    for i in range(60):  # single trees on the downs
         x, y, _ = dice.choice(downs.hills)
         plant(x + dice.gauss(0, 150), y + dice.gauss(0, 150), dice.uniform(10, 17))
-    for i in range(140):  # woods of the far downs and of the ridge's near side
+    for i in range(90):  # woods of the far downs and of the ridge's near side
         x, y = climb_out(dice.uniform(1500, 3600), dice.uniform(-1800, 1800))
         woods.append(copse(dice, f"copse-{i + 1}", x, y, height(x, y), dice.uniform(22, 60), dice.uniform(12, 17)))
     parts += woods

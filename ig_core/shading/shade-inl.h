@@ -131,8 +131,8 @@ HWY_NOINLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& sa
 }
 
 /// A smooth block: its samples shaded, the rest interpolated.
-HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, std::size_t count, ShadeBuffer& buffer,
-                             std::size_t offset) {
+HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, std::size_t count,
+                               ShadeBuffer& buffer, std::size_t offset) {
     const hn::ScalableTag<float> d;
     const std::size_t n = hn::Lanes(d);
     SlowTerms none;
@@ -190,6 +190,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
     SlowTerms slow;
     bool coarse = in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
+    bool rough = false;                                // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
         // A block much shorter than its samples reach is as soon done without.
@@ -205,7 +206,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
         coarse = false;
         slow.count = 0;
         const std::size_t count = std::min(left, BlockSamples::columns(kFineStride));
-        if (left >= BlockSamples::columns(kFineStride) / 2) {
+        if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
             const BlockSamples samples{i, kFineStride};
             const BlockProbe probe = probe_block(in, samples);
             if (probe.smooth) {
@@ -215,6 +216,9 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
                 continue;
             }
             sample_slow_terms(in, samples, probe.slow_terms, slow);
+            rough = probe.slow_terms == 0;
+        } else {
+            rough = false;
         }
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
             const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);

@@ -83,7 +83,7 @@ HWY_INLINE void add_terms(D d, const FrameTexture& texture, int first, int last,
 /// add_terms() as the texture and its use need it.
 template <class D, class V = hn::Vec<D>>
 HWY_NOINLINE void add_terms(D d, const FrameTexture& texture, bool lost_variance, int first, int last, const Vec3<V>& p,
-                          V footprint_x, V footprint_y, TextureSums<V>& sums) {
+                            V footprint_x, V footprint_y, TextureSums<V>& sums) {
     if (texture.vertical != 0.0F) {
         if (lost_variance)
             add_terms<true, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);

@@ -14,8 +14,10 @@ void clear_ends(RowSpan& span) {
 }
 
 /// Narrows the bounds of 1/k from the whole object's to the span's own, by its first and last sub-scan line. (What the
-/// lines between could add is less than a sub-scan line high.)
+/// lines between could add is less than a sub-scan line high.) What is shallow to begin with is left as it is.
 void bound_depth(const PixelRow& row, RowSpan& span) {
+    constexpr double kShallow = 1.1;
+    if (span.surface.near_u < kShallow * span.surface.far_u) return;
     std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
     while (!(span.from[first] < span.to[first])) ++first;
     while (!(span.from[last] < span.to[last])) --last;

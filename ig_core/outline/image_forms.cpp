@@ -74,7 +74,8 @@ RowRoots roots_on_row(const RowConic& conic, double zeta) {
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
              bool infinity, EyeSolid& out) {
-    // A cylinder without end is anchored where it is nearest to the eye, not where its file's numbers are small.
+    // A cylinder or paraboloid without end is anchored where it is nearest to the eye, not where its file's numbers are
+    // small.
     const double along = infinity ? glm::dot(solid.axis, eye.metres - solid.anchor.metres) : 0.0;
     out.scene_anchor = {solid.anchor.metres + along * solid.axis};
     const glm::dvec3 anchor = eye_from_scene * (out.scene_anchor.metres - eye.metres);
@@ -99,7 +100,7 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
                           glm::dot(n, scene_from_sheared[2]));
     };
     out.w = covector(solid.w);
-    out.c = solid.c;
+    out.c = solid.c + 2.0 * along * glm::dot(solid.w, solid.axis);
     out.v = out.w - out.m * out.anchor;
     out.s = solid.quadric_at(eye);
     set_forms(out);

@@ -145,19 +145,19 @@ std::vector<SolidPlane> flat_sides(const QuadQuadric& q, const Quad (&w)[3], Qua
     return {{normal, (g + half) / m, 0}, {-normal, (half - g) / m, 0}};
 }
 
-/// A direction along which the quadric does not change at all, zero if there is none: the axis of a cylinder.
+/// The axis of a cylinder or paraboloid: a direction u with M u = 0, and across v where M leaves a choice. Zero if
+/// there is none.
 glm::dvec3 axis_of(const QuadQuadric& q) {
     const auto square = [](const Quad3& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; };
-    const std::array<const Quad*, 4> rows{q.m[0], q.m[1], q.m[2], q.v};
     Quad3 axis{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            const Quad *a = rows[i], *b = rows[k];
-            const Quad3 u{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-            if (square(u) > square(axis)) axis = u;
-        }
-    }
-    for (const Quad* row : rows) {
+    const auto consider = [&](const Quad(&a)[3], const Quad(&b)[3]) {
+        const Quad3 u{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        if (square(u) > square(axis)) axis = u;
+    };
+    for (int i = 0; i < 3; ++i) consider(q.m[i], q.m[(i + 1) % 3]);
+    if (square(axis) == 0)
+        for (const auto& row : q.m) consider(row, q.v);
+    for (const auto& row : q.m) {
         const Quad change = row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2];
         const Quad terms = square({row[0], row[1], row[2]}) * square(axis);
         if (change * change > static_cast<Quad>(1e-60) * terms) return glm::dvec3(0.0);

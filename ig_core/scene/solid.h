@@ -36,8 +36,8 @@ struct Solid {
     /// The planes that the quadric consists of, if it is a half-space or the space between two parallel planes. Kept
     /// side positive, as a bounding plane's.
     std::vector<SolidPlane> flat_sides;
-    /// Unit direction along which the quadric does not change at all, if there is one: any point of the line through
-    /// the anchor is as good an anchor.
+    /// Unit direction u with M u = 0, if there is one: the axis of a cylinder or paraboloid. From an anchor moved by
+    /// t u, M and w are the same, and c is 2 t w.u more.
     glm::dvec3 axis{0.0};
     bool ellipsoid = false;      ///< M positive definite: bounded by itself
     bool may_be_endless = true;  ///< false where quadric and planes are known to enclose a finite volume

@@ -31,7 +31,7 @@ std::vector<View> views_along(const std::vector<config::Camera>& cameras, const 
 
 void bench(const BenchOptions& options) {
     watch_stop_signals();
-    const PictureSettings settings = picture_settings(options.settings, false);
+    const PictureSettings settings = picture_settings(options, options.settings);
     const std::vector<View> views = views_along(config::read_camera_path(options.path), settings.size);
     const std::uint64_t frames = options.frames.value_or(views.size());
     Painter painter(config::read_scene(options.scene), settings);

@@ -48,7 +48,7 @@ void check_appliance(const Path& file) {
     if (settings.fov) std::cout << "fov:         " << settings.fov->value << " degrees\n";
     if (settings.rate) std::cout << "rate:        " << settings.rate->hertz() << " Hz\n";
     if (settings.threads) std::cout << "threads:     " << *settings.threads << '\n';
-    if (settings.quality) std::cout << "quality:     " << settings.quality->name << '\n';
+    if (settings.quality) std::cout << "quality:     " << *settings.quality << '\n';
     if (settings.scene) config::read_scene(*settings.scene);
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <sstream>
 
+#include "appliance/svg.h"
+
 namespace quadrig::appliance {
 namespace {
 
@@ -47,30 +49,6 @@ path{fill:none;stroke-linecap:round;stroke-linejoin:round}
 .limb-extremum{fill:#1f2933}.curve-extremum{fill:#1c64d1}.contact{fill:#e8590c}.intersection{fill:#2f9e44}.triplet{fill:#ae3ec9}
 </style>
 )";
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                // XML 1.0 has no place for other control characters.
-                out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 /// RFC 4648.
 std::string base64(const std::string& bytes) {

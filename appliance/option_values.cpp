@@ -76,12 +76,6 @@ double read_number(const std::string& text) {
     return number_in(text, "a number", [](double) { return true; });
 }
 
-config::QualityPreset read_quality(const std::string& text) {
-    const auto preset = config::quality_preset(text);
-    if (!preset) refuse(text, std::string(config::kQualityNames));
-    return *preset;
-}
-
 host::LinkUrl read_link(const std::string& text) {
     try {
         return host::parse_link_url(text);

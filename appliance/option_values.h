@@ -7,7 +7,6 @@
 #include <string>
 
 #include "config/appliance_file.h"
-#include "config/quality_preset.h"
 #include "frame_scheduler/frame_clock.h"
 #include "host_link/link_url.h"
 #include "ig_core/geometry/space.h"
@@ -26,7 +25,6 @@ scheduler::FrameRate read_rate(const std::string& text);
 scheduler::Time read_duration(const std::string& text);
 /// A finite number.
 double read_number(const std::string& text);
-config::QualityPreset read_quality(const std::string& text);
 host::LinkUrl read_link(const std::string& text);
 std::string read_sink(const std::string& text);
 

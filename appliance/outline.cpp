@@ -7,6 +7,7 @@
 #include "appliance/commands.h"
 #include "appliance/figure_svg.h"
 #include "appliance/option_values.h"
+#include "config/quality_ladder.h"
 #include "config/scene_file.h"
 #include "display/atomic_file.h"
 #include "display/picture.h"
@@ -73,7 +74,7 @@ std::string shaded(const Scene& scene, const Object& object, const View& view, c
     fine.image =
         ImagePlane::symmetric(kPictureScale * options.size.width, kPictureScale * options.size.height, options.fov);
     display::Picture picture(fine.image.width, fine.image.height);
-    ImageGenerator(std::move(alone)).render(fine, {}, config::kQualityPresets.back().quality, picture.image());
+    ImageGenerator(std::move(alone)).render(fine, {}, config::shipped_ladder().back().quality, picture.image());
     return display::png_bytes(picture.image());
 }
 

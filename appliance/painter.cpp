@@ -11,10 +11,19 @@ std::optional<display::Overlay> overlay_for(const PictureSettings& settings) {
     return std::optional<display::Overlay>(std::in_place, settings.size.width, settings.size.height);
 }
 
+std::optional<scheduler::BudgetControl> budget_for(const PictureSettings& settings) {
+    if (!settings.automatic) return std::nullopt;
+    std::vector<double> costs;
+    for (const config::QualityStep& step : settings.ladder) costs.push_back(step.cost);
+    return scheduler::BudgetControl(std::move(costs), settings.step, scheduler::frame_time(settings.rate, 1));
+}
+
 }  // namespace
 
 Painter::Painter(Scene scene, const PictureSettings& settings)
     : settings_(settings),
+      budget_(budget_for(settings)),
+      frames_at_step_(settings.ladder.size()),
       overlay_(overlay_for(settings)),
       channel_(settings.size.width, settings.size.height),
       generator_(std::move(scene), settings.threads) {}
@@ -24,7 +33,17 @@ ImagePlane Painter::image_plane() const {
 }
 
 StageTimes Painter::paint(const View& view, const Environment& environment, std::uint64_t frame_number) {
-    StageTimes times = generator_.render(view, environment, settings_.quality.quality, image());
+    const std::size_t step = budget_ ? budget_->step() : settings_.step;
+    const auto begun = std::chrono::steady_clock::now();
+    const StageTimes times = draw(view, environment, frame_number, step);
+    ++frames_at_step_[step];
+    if (budget_) budget_->frame_took(std::chrono::steady_clock::now() - begun);
+    return times;
+}
+
+StageTimes Painter::draw(const View& view, const Environment& environment, std::uint64_t frame_number,
+                         std::size_t step) {
+    StageTimes times = generator_.render(view, environment, settings_.ladder[step].quality, image());
     const auto begun = std::chrono::steady_clock::now();
     if (overlay_) overlay_->lay_over(image(), frame_number);
     times[static_cast<std::size_t>(Stage::present)] += std::chrono::steady_clock::now() - begun;
@@ -33,7 +52,7 @@ StageTimes Painter::paint(const View& view, const Environment& environment, std:
 
 void Painter::warm_up(const View& view) {
     constexpr int kWarmUpFrames = 2;
-    for (int i = 0; i < kWarmUpFrames; ++i) paint(view, {}, 0);
+    for (int i = 0; i < kWarmUpFrames; ++i) draw(view, {}, 0, settings_.step);
 }
 
 }  // namespace quadrig::appliance

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "appliance/run_options.h"
 #include "display/channel.h"
 #include "display/overlay.h"
+#include "frame_scheduler/budget_control.h"
 #include "ig_core/image_generator.h"
 
 namespace quadrig::appliance {
@@ -17,6 +19,8 @@ class Painter {
 
     /// Leaves a whole picture in image(). Allocates nothing after the first frames. The stage `present` is the overlay.
     StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number);
+    /// Pictures painted with each step of the quality ladder.
+    [[nodiscard]] const std::vector<std::uint64_t>& frames_at_step() const { return frames_at_step_; }
     /// Draws a view as often as it takes for memory to be there.
     void warm_up(const View& view);
 
@@ -27,7 +31,11 @@ class Painter {
     [[nodiscard]] ImagePlane image_plane() const;
 
   private:
+    StageTimes draw(const View& view, const Environment& environment, std::uint64_t frame_number, std::size_t step);
+
     PictureSettings settings_;
+    std::optional<scheduler::BudgetControl> budget_;
+    std::vector<std::uint64_t> frames_at_step_;
     std::optional<display::Overlay> overlay_;
     display::Channel channel_;
     ImageGenerator generator_;

@@ -6,6 +6,7 @@
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
 #include "appliance/run_options.h"
+#include "config/quality_ladder.h"
 #include "config/scene_file.h"
 #include "display/npy_file.h"
 #include "display/picture.h"
@@ -22,7 +23,7 @@ struct RenderOptions {
     config::ImageSize size;
     Degrees fov{60.0};
     double seconds = 0.0;
-    config::QualityPreset quality = config::kDefaultQuality;
+    std::string quality = "default";
     int threads = default_threads();
     bool reference = false;
     int samples = 4;
@@ -54,6 +55,8 @@ void render(const RenderOptions& options) {
     Environment environment;
     environment.seconds = options.seconds;
     display::Picture picture(options.size.width, options.size.height);
+    const config::QualityLadder& ladder = config::shipped_ladder();
+    const Quality quality = ladder[*config::step_named(ladder, options.quality)].quality;
     if (options.reference) {
         if (options.wants_ground_truth()) write_ground_truth(options, reference::ground_truth(scene, view));
         if (options.picture.empty()) return;
@@ -62,7 +65,7 @@ void render(const RenderOptions& options) {
         ImageGenerator generator(std::move(scene), options.threads);
         if (options.wants_ground_truth()) write_ground_truth(options, generator.ground_truth(view));
         if (options.picture.empty()) return;
-        generator.render(view, environment, options.quality.quality, picture.image());
+        generator.render(view, environment, quality, picture.image());
     }
     display::write_png(options.picture, picture.image());
 }
@@ -107,8 +110,11 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::Range(1, 64))
         ->needs(reference)
         ->option_text("N");
-    add_option(command, "--quality", options->quality, read_quality, "draft, default, fine or best (default: default)",
-               "NAME")
+    std::vector<std::string> qualities;
+    for (const config::QualityStep& step : config::shipped_ladder()) qualities.push_back(step.name);
+    command.add_option("--quality", options->quality, "A step of the quality ladder (default: default)")
+        ->check(CLI::IsMember(qualities))
+        ->option_text("NAME")
         ->excludes(reference);
     command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))

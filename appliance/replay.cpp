@@ -67,7 +67,9 @@ void replay(const ReplayOptions& options) {
     if (options.link && options.link->port)
         throw WrongUse("link '" + options.link->text + "': a recording's is named without an address, cigi: or fdm:");
     watch_stop_signals();
-    const PictureSettings settings = picture_settings(options.settings, options.overlay);
+    PictureSettings settings = picture_settings(options, options.settings);
+    // As fast as frames can be drawn there is no time to be short of, and the same frames are to come every time.
+    if (options.fast) settings.automatic = false;
     const host::Capture capture =
         read_capture(options.recording, options.link ? std::optional(options.link->protocol) : std::nullopt);
     if (capture.truncated)

@@ -95,7 +95,7 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
 
 void run(const LiveOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
-    const PictureSettings settings = picture_settings(given, options.overlay);
+    const PictureSettings settings = picture_settings(options, given);
     watch_stop_signals();
     LiveHosts hosts = listen(given.links);
     Painter painter(config::read_scene(*given.scene), settings);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
+#include "appliance/commands.h"
 #include "appliance/option_values.h"
 
 namespace quadrig::appliance {
@@ -14,8 +16,13 @@ void add_picture_options(CLI::App& command, RunOptions& options) {
     command.add_option("--threads", settings.threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))
         ->option_text("N");
-    add_option(command, "--quality", settings.quality, read_quality, "draft, default, fine or best (default: default)",
-               "NAME");
+    command
+        .add_option(
+            "--quality", settings.quality,
+            "A step of the quality ladder: " + config::quality_names(config::shipped_ladder()) + "\n(default: default)")
+        ->option_text("NAME");
+    command.add_option("--ladder", options.ladder, "A quality ladder of your own (quadrig accuracy makes them)")
+        ->option_text("LADDER.toml");
     command.add_option("--report", options.report, "Write the run's report to a file, as JSON")
         ->option_text("FILE.json");
 }
@@ -42,10 +49,21 @@ void add_host_options(CLI::App& command, RunOptions& options) {
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-PictureSettings picture_settings(const config::ApplianceSettings& settings, bool overlay) {
-    return {settings.size.value_or(config::ImageSize{}),        settings.fov.value_or(Degrees{60.0}),
-            settings.rate.value_or(scheduler::FrameRate{}),     settings.threads.value_or(default_threads()),
-            settings.quality.value_or(config::kDefaultQuality), overlay};
+PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings) {
+    config::QualityLadder ladder =
+        options.ladder.empty() ? config::shipped_ladder() : config::read_quality_ladder(options.ladder);
+    const bool automatic = settings.quality == config::kAutomaticQuality;
+    const auto step =
+        automatic ? config::default_step(ladder) : config::step_named(ladder, settings.quality.value_or("default"));
+    if (!step) throw WrongUse("--quality " + *settings.quality + ": expected " + config::quality_names(ladder));
+    return {settings.size.value_or(config::ImageSize{}),
+            settings.fov.value_or(Degrees{60.0}),
+            settings.rate.value_or(scheduler::FrameRate{}),
+            settings.threads.value_or(default_threads()),
+            std::move(ladder),
+            *step,
+            automatic,
+            options.overlay};
 }
 
 }  // namespace quadrig::appliance

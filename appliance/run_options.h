@@ -15,12 +15,12 @@ struct RunOptions {
     config::ApplianceSettings settings;
     std::optional<std::uint64_t> frames;
     std::optional<scheduler::Time> duration;
-    std::filesystem::path report, contact_sheet;  ///< empty: none
+    std::filesystem::path report, contact_sheet, ladder;  ///< empty: none; the shipped ladder
     bool overlay = false;
     bool ignore_host_window = false;
 };
 
-/// --size, --rate, --threads, --quality, --report.
+/// --size, --rate, --threads, --quality, --ladder, --report.
 void add_picture_options(CLI::App& command, RunOptions& options);
 /// --scene, --sink, --contact-sheet, --fov, --ignore-host-window, --overlay, --frames, --seconds.
 void add_host_options(CLI::App& command, RunOptions& options);
@@ -31,10 +31,13 @@ struct PictureSettings {
     Degrees fov;
     scheduler::FrameRate rate;
     int threads;
-    config::QualityPreset quality;
+    config::QualityLadder ladder;
+    std::size_t step;  ///< of the ladder, to begin with
+    bool automatic;    ///< whether the frame loop may leave it
     bool overlay;
 };
-PictureSettings picture_settings(const config::ApplianceSettings& settings, bool overlay);
+/// Throws WrongUse where the ladder has no such quality.
+PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings);
 
 /// One thread per core that this process may use.
 int default_threads();

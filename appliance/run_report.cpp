@@ -61,7 +61,10 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
 void finish_report(scheduler::FrameReport& report, const scheduler::FrameRecord& record, const Painter& painter,
                    Outlets& outlets, const std::filesystem::path& file) {
     add_record(report, record);
-    report.quality[std::string(painter.settings().quality.name)] = record.frames;
+    const PictureSettings& settings = painter.settings();
+    for (std::size_t step = 0; step < settings.ladder.size(); ++step)
+        if (const std::uint64_t frames = painter.frames_at_step()[step]; frames > 0 || step == settings.step)
+            report.quality[settings.ladder[step].name] = frames;
     outlets.finish(report);
     std::cerr << summary(report);
     if (!file.empty()) {

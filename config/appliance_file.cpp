@@ -52,8 +52,9 @@ ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRu
     if (section.has("rate")) settings.rate = scheduler::frame_rate(section.number("rate", kRate));
     if (section.has("threads")) settings.threads = static_cast<int>(section.number("threads", kThreads));
     if (const auto name = section.optional_text("quality")) {
-        settings.quality = quality_preset(*name);
-        if (!settings.quality) section.refuse("quality", std::string(kQualityNames), "\"" + *name + "\"");
+        if (*name != kAutomaticQuality && !step_named(shipped_ladder(), *name))
+            section.refuse("quality", quality_names(shipped_ladder()), "\"" + *name + "\"");
+        settings.quality = *name;
     }
     return settings;
 }

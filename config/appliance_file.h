@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config/file_error.h"
-#include "config/quality_preset.h"
+#include "config/quality_ladder.h"
 #include "frame_scheduler/frame_clock.h"
 #include "host_link/link_url.h"
 #include "ig_core/geometry/space.h"
@@ -31,8 +31,8 @@ struct ApplianceSettings {
     std::optional<ImageSize> size;
     std::optional<Degrees> fov;  ///< horizontal field of view, above 0 and below 180
     std::optional<scheduler::FrameRate> rate;
-    std::optional<int> threads;  ///< 1..kMostThreads
-    std::optional<QualityPreset> quality;
+    std::optional<int> threads;          ///< 1..kMostThreads
+    std::optional<std::string> quality;  ///< a step of the shipped ladder, or kAutomaticQuality
 };
 
 /// What a text has to be, in words and as a test.

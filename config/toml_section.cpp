@@ -42,8 +42,9 @@ std::string list_of(KnownKeys known) {
 
 }  // namespace
 
-toml::table parse_toml_file(const std::filesystem::path& file) {
-    const std::string text = read_text_file(file);
+toml::table parse_toml_file(const std::filesystem::path& file) { return parse_toml_text(file, read_text_file(file)); }
+
+toml::table parse_toml_text(const std::filesystem::path& file, std::string_view text) {
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
@@ -115,6 +116,13 @@ std::vector<double> TomlSection::numbers_at(const toml::node& node, const std::s
 
 double TomlSection::number(std::string_view name, const NumberRule& rule) const {
     return number_at(required(name), key_of(name), rule);
+}
+
+bool TomlSection::flag_or(std::string_view name, bool absent) const {
+    if (!has(name)) return absent;
+    const toml::node& node = required(name);
+    if (!node.is_boolean()) refuse(node, key_of(name), "true or false");
+    return node.as_boolean()->get();
 }
 
 double TomlSection::number_or(std::string_view name, const NumberRule& rule, double absent) const {

@@ -31,6 +31,8 @@ using KnownKeys = std::initializer_list<std::string_view>;
 
 /// The document in a file. Throws FileError with the line of a syntax error.
 toml::table parse_toml_file(const std::filesystem::path& file);
+/// The same of a text; `file` is what messages call it.
+toml::table parse_toml_text(const std::filesystem::path& file, std::string_view text);
 
 /// One table of a document. It refers to the document and to the file's name, which must outlive it. Integers are taken
 /// where numbers are expected. Indices in keys count from 0. Every member throws FileError.
@@ -42,6 +44,7 @@ class TomlSection {
     [[nodiscard]] bool has(std::string_view name) const { return table_->contains(name); }
 
     [[nodiscard]] double number(std::string_view name, const NumberRule& rule) const;
+    [[nodiscard]] bool flag_or(std::string_view name, bool absent) const;
     [[nodiscard]] double number_or(std::string_view name, const NumberRule& rule, double absent) const;
     /// An array of `least` to `most` numbers.
     [[nodiscard]] std::vector<double> numbers(std::string_view name, const NumberRule& rule, std::size_t least,

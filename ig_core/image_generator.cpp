@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Rows are handed out in strips, so that objects are looked up once for several rows.
-constexpr int kStripRows = 8;
+constexpr int kStripRows = 8;  // even: both rows of a pixel that is drawn twice as fine
 constexpr int kSelectBlock = 512, kOutlineBlock = 8;
 
 /// 1/k of the plane Z = altitude over the image: P(k d) = height + k n.d (Eq 7).
@@ -25,6 +25,8 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
     if (height == 0.0) return {};  // edge-on: nowhere in front
     return {-up.y / height, -up.x / height, -up.z / height};
 }
+
+int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
 
 /// Scratch of one worker; nothing in it survives a row but its memory.
 struct RowWorker {
@@ -45,8 +47,8 @@ struct ImageGenerator::Impl {
     }
 
     void select(const View& view);
-    void make_outlines(const View& view, int sub_lines);
-    void assign_strips(const View& view);
+    void make_outlines(const View& view, const Quality& quality);
+    void assign_strips(const View& view, double smallest_feature);
     /// Spans of one row, swept.
     void sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& planes, RowSweep& sweep) const;
 
@@ -79,7 +81,8 @@ void ImageGenerator::Impl::select(const View& view) {
         if (may_be_seen[i] != 0) selected.push_back(i);
 }
 
-void ImageGenerator::Impl::make_outlines(const View& view, int sub_lines) {
+void ImageGenerator::Impl::make_outlines(const View& view, const Quality& quality) {
+    const int sub_lines = sub_lines_of(quality);
     const RowGrid rows{view.image.top, view.image.row_step / sub_lines, view.image.height * sub_lines};
     if (outlines.size() < selected.size()) outlines.resize(selected.size());
     const auto count = static_cast<int>(selected.size());
@@ -88,20 +91,21 @@ void ImageGenerator::Impl::make_outlines(const View& view, int sub_lines) {
         for (int i = block * kOutlineBlock; i < end; ++i) {
             const std::uint32_t object = selected[static_cast<std::size_t>(i)];
             make_outline(solids[object], object, view.eye, view.eye_from_scene, rows,
-                         outlines[static_cast<std::size_t>(i)]);
+                         outlines[static_cast<std::size_t>(i)], quality.set_up);
         }
     };
     workers.run((count + kOutlineBlock - 1) / kOutlineBlock, std::ref(task));
-    assign_strips(view);
+    assign_strips(view, quality.smallest_feature);
 }
 
-void ImageGenerator::Impl::assign_strips(const View& view) {
+void ImageGenerator::Impl::assign_strips(const View& view, double smallest_feature) {
     const ImagePlane& image = view.image;
     const int strips = (image.height + kStripRows - 1) / kStripRows;
     const auto strips_of = [&](const Outline& outline) {
         const double first = (image.top - (outline.zeta_to + outline.solid.z0)) / image.row_step;
         const double last = (image.top - (outline.zeta_from + outline.solid.z0)) / image.row_step;
-        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height))
+        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height) ||
+            last - first < smallest_feature)
             return std::pair{1, 0};
         const auto strip = [&](double row) {
             return static_cast<int>(std::clamp(std::floor(row), 0.0, image.height - 1.0)) / kStripRows;
@@ -140,11 +144,20 @@ void ImageGenerator::Impl::sweep_row(const PixelRow& row, bool everything_opaque
 
 namespace {
 
-PixelRow pixel_row(const View& view, int r, int sub_lines, bool point_samples) {
+/// The same window with four pixels for each.
+ImagePlane twice_as_fine(ImagePlane image) {
+    image.width *= 2, image.height *= 2;
+    image.column_step *= 0.5, image.row_step *= 0.5;
+    return image;
+}
+
+PixelRow pixel_row(const View& view, int r, const Quality& quality) {
+    const int sub_lines = sub_lines_of(quality);
     PixelRow row;
     row.row = r;
     row.sub_lines = sub_lines;
-    row.point_samples = point_samples;
+    row.point_samples = quality.sub_scan_lines == 0;
+    row.distance = quality.distance;
     row.columns = view.image.width;
     row.left = view.image.left;
     row.column_step = view.image.column_step;
@@ -160,39 +173,51 @@ ImageGenerator::~ImageGenerator() = default;
 const Scene& ImageGenerator::scene() const { return impl_->scene; }
 std::string_view ImageGenerator::simd_target() { return simd_target_name(); }
 
-StageTimes ImageGenerator::render(const View& view, const Environment& environment, const Quality& quality,
+StageTimes ImageGenerator::render(const View& asked, const Environment& environment, const Quality& quality_asked,
                                   const FrameImage& image) {
     Impl& g = *impl_;
-    const int sub_lines = std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines);
+    const bool fine = quality_asked.shading == ShadingRate::four;
+    View view = asked;
+    Quality quality = quality_asked;
+    if (fine) {
+        view.image = twice_as_fine(view.image);
+        quality.smallest_feature *= 2.0;
+    }
     const auto start = Clock::now();
     g.select(view);
     const auto selected = Clock::now();
-    g.make_outlines(view, sub_lines);
+    g.make_outlines(view, quality);
     const auto outlined = Clock::now();
 
-    move_textures(g.scene, view.eye, environment.seconds, g.paints);
+    move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
     g.planes.ground.reset();
     if (g.scene.ground) g.planes.ground = horizontal_plane(view, 0.0);
     g.planes.decks.clear();
     for (const CloudDeck& deck : g.scene.cloud_decks) g.planes.decks.push_back(horizontal_plane(view, deck.altitude));
-    const FrameShading frame{&view, &g.solids, &g.paints, make_frame_light(g.scene, environment)};
+    const FrameShading frame{&view, &g.solids, &g.paints, make_frame_light(g.scene, environment), quality};
     for (RowWorker& worker : g.row_workers) worker.sweep_time = worker.shade_time = {};
 
     const auto task = [&](int strip, int worker) {
         RowWorker& own = g.row_workers[static_cast<std::size_t>(worker)];
         auto before = Clock::now();
-        for (int r = strip * kStripRows; r < std::min(image.height, (strip + 1) * kStripRows); ++r) {
-            const PixelRow row = pixel_row(view, r, sub_lines, false);
+        for (int r = strip * kStripRows; r < std::min(view.image.height, (strip + 1) * kStripRows); ++r) {
+            const PixelRow row = pixel_row(view, r, quality);
             g.sweep_row(row, false, g.planes, own.sweep);
             const auto swept = Clock::now();
-            own.shader.draw(frame, row, own.sweep, image.row(r));
+            own.shader.draw(frame, row, own.sweep);
+            if (!fine)
+                own.shader.write(image.width, image.row(r));
+            else if (r % 2 == 0)
+                own.shader.keep_upper();
+            else
+                own.shader.write_averaged(image.width, image.row(r / 2));
             const auto shaded = Clock::now();
             own.sweep_time += swept - before;
             own.shade_time += shaded - swept;
             before = shaded;
         }
     };
-    g.workers.run((image.height + kStripRows - 1) / kStripRows, std::ref(task));
+    g.workers.run((view.image.height + kStripRows - 1) / kStripRows, std::ref(task));
 
     StageTimes times{};
     times[static_cast<std::size_t>(Stage::select)] = selected - start;
@@ -204,11 +229,12 @@ StageTimes ImageGenerator::render(const View& view, const Environment& environme
     return times;
 }
 
-GroundTruth ImageGenerator::ground_truth(const View& view) {
+GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality) {
     Impl& g = *impl_;
+    quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
     g.select(view);
-    g.make_outlines(view, 1);
+    g.make_outlines(view, quality);
     PlaneSurfaces planes;
     if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
     GroundTruth truth;
@@ -216,7 +242,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view) {
     const auto task = [&](int strip, int worker) {
         RowSweep& sweep = g.row_workers[static_cast<std::size_t>(worker)].sweep;
         for (int r = strip * kStripRows; r < std::min(image.height, (strip + 1) * kStripRows); ++r) {
-            const PixelRow row = pixel_row(view, r, 1, true);
+            const PixelRow row = pixel_row(view, r, quality);
             g.sweep_row(row, true, planes, sweep);
             for (const LayerRun& run : sweep.runs) {
                 const Surface& surface = sweep.spans[sweep.layers[run.first_layer]].surface;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ig_core/geometry/space.h"
+#include "ig_core/quality.h"
 #include "ig_core/scene/scene.h"
 
 namespace quadrig {
@@ -70,11 +71,6 @@ struct GroundTruth {
         surface_ids.assign(pixels, 0);
         depth.assign(pixels, std::numeric_limits<double>::infinity());
     }
-};
-
-/// Every approximation has a name here.
-struct Quality {
-    int sub_scan_lines = 2;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8
 };
 
 }  // namespace quadrig

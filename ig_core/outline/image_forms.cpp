@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ig_core/outline/textbook_forms.h"
+
 namespace quadrig {
 namespace {
 
@@ -73,13 +75,14 @@ RowRoots roots_on_row(const RowConic& conic, double zeta) {
 }
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
-             bool infinity, EyeSolid& out) {
+             bool infinity, SetUp set_up, EyeSolid& out) {
+    out.set_up = set_up;
     // A cylinder or paraboloid without end is anchored where it is nearest to the eye, not where its file's numbers are
     // small.
     const double along = infinity ? glm::dot(solid.axis, eye.metres - solid.anchor.metres) : 0.0;
     out.scene_anchor = {solid.anchor.metres + along * solid.axis};
     const glm::dvec3 anchor = eye_from_scene * (out.scene_anchor.metres - eye.metres);
-    const bool shear = anchor.y > kLeastShearCosine * glm::length(anchor);
+    const bool shear = set_up == SetUp::anchored && anchor.y > kLeastShearCosine * glm::length(anchor);
     out.x0 = shear ? anchor.x / anchor.y : 0.0;
     out.z0 = shear ? anchor.z / anchor.y : 0.0;
     out.anchor = shear ? glm::dvec3(0, anchor.y, 0) : anchor;
@@ -118,9 +121,13 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
             {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};
     if (infinity) out.planes[static_cast<std::size_t>(out.plane_count++)] = {{0, 0, 0}, 1.0, 1.0, kNoSurface, true};
+    if (set_up == SetUp::textbook) set_textbook_forms<double>(out);
+    if (set_up == SetUp::textbook_single) set_textbook_forms<float>(out);
 }
 
 RowConic limb_on_rows(const EyeSolid& e) {
+    if (e.set_up == SetUp::textbook) return textbook_limb_on_rows<double>(e);
+    if (e.set_up == SetUp::textbook_single) return textbook_limb_on_rows<float>(e);
     const Sym3& l = e.limb;
     const Sym3& t = e.tangent;
     return {l.xx,
@@ -130,6 +137,8 @@ RowConic limb_on_rows(const EyeSolid& e) {
 }
 
 RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
+    if (e.set_up == SetUp::textbook) return textbook_intersection_curve_on_rows<double>(e, plane);
+    if (e.set_up == SetUp::textbook_single) return textbook_intersection_curve_on_rows<float>(e, plane);
     const glm::dvec3 &n = plane.normal, &a = e.anchor;
     const double bl = plane.local_offset;
     // The ray meets plane j at q = y / (n.d) about the anchor, y = n x (d x a) - P(a) d: three images of the axes.
@@ -156,6 +165,8 @@ RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
 }
 
 glm::dvec3 visibility_line(const EyeSolid& e, const EyePlane& plane) {
+    if (e.set_up == SetUp::textbook) return textbook_visibility_line<double>(e, plane);
+    if (e.set_up == SetUp::textbook_single) return textbook_visibility_line<float>(e, plane);
     // s n - b v, expanded about the anchor.
     const glm::dvec3 &n = plane.normal, &a = e.anchor;
     const glm::dvec3 ma = e.m * a;
@@ -164,6 +175,8 @@ glm::dvec3 visibility_line(const EyeSolid& e, const EyePlane& plane) {
 }
 
 glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlane& j) {
+    if (e.set_up == SetUp::textbook) return textbook_intersection_line<double>(i, j);
+    if (e.set_up == SetUp::textbook_single) return textbook_intersection_line<float>(i, j);
     // b_j n_i - b_i n_j, expanded about the anchor.
     return j.local_offset * i.normal - i.local_offset * j.normal - glm::cross(e.anchor, glm::cross(i.normal, j.normal));
 }

@@ -24,6 +24,7 @@
 #include <optional>
 
 #include "ig_core/geometry/symmetric.h"
+#include "ig_core/quality.h"
 #include "ig_core/scene/solid.h"
 
 namespace quadrig {
@@ -66,6 +67,7 @@ struct RowRoots {
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 
 struct EyeSolid {
+    SetUp set_up = SetUp::anchored;
     double x0 = 0, z0 = 0;    ///< image point of the sheared Y axis
     ScenePoint scene_anchor;  ///< Solid's, or another on its axis
     glm::dvec3 anchor{0.0};
@@ -84,9 +86,10 @@ struct EyeSolid {
 };
 
 /// Brings a solid into the sheared eye space of an eye point and attitude. `near_plane` and `infinity` add those
-/// bounds.
+/// bounds. With a textbook set-up there is no shear, and this and the following are as the paper has them
+/// (textbook_forms.h).
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
-             bool infinity, EyeSolid& out);
+             bool infinity, SetUp set_up, EyeSolid& out);
 
 RowConic limb_on_rows(const EyeSolid& solid);
 RowConic intersection_curve_on_rows(const EyeSolid& solid, const EyePlane& plane);

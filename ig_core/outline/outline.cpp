@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "ig_core/outline/key_points.h"
 
@@ -153,7 +154,7 @@ bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3&
 }
 
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
-                  const RowGrid& rows, Outline& out) {
+                  const RowGrid& rows, Outline& out, SetUp set_up) {
     out.object = object;
     out.lines.clear();
     out.key_points.clear();
@@ -174,7 +175,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         if (distance + extent > 0.0) out.far_u = 1.0 / (distance + extent);
     }
     const bool endless = solid.may_be_endless;
-    look_at(solid, eye, eye_from_scene, near_plane, endless, out.solid);
+    look_at(solid, eye, eye_from_scene, near_plane, endless, set_up, out.solid);
 
     out.direct = endless;
     out.limb_only = solid.planes.empty() && !near_plane && !endless;
@@ -227,9 +228,14 @@ void limb_on_lines(const Outline& outline, const double* z, std::size_t count, d
 }
 
 int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
+    const std::optional<int> count = cuts_by_band(outline, z, cuts);
+    return count ? *count : cuts_on_row_directly(outline, z, cuts);
+}
+
+std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts) {
     const double zeta = z - outline.solid.z0, x0 = outline.solid.x0;
     if (zeta < outline.zeta_from || zeta > outline.zeta_to) return 0;
-    if (outline.direct) return cuts_on_row_directly(outline, z, cuts);
+    if (outline.direct) return std::nullopt;
     if (outline.limb_only) {
         limb_on_lines(outline, &z, 1, &cuts[0].from, &cuts[0].to);
         cuts[0].surface = 0;
@@ -244,7 +250,7 @@ int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
     for (std::uint32_t i = band->first; i < band->first + band->count; ++i) {
         double xi = intercept(outline, outline.boundaries[i], zeta);
         if (!(xi >= left)) {
-            if (!(xi >= left - kDisorder)) return cuts_on_row_directly(outline, z, cuts);
+            if (!(xi >= left - kDisorder)) return std::nullopt;
             xi = left;
         }
         if (surface != kNoSurface && xi > left && count < kMaxCuts) cuts[count++] = {x0 + left, x0 + xi, surface};

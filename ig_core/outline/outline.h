@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ig_core/outline/image_forms.h"
@@ -79,12 +80,15 @@ bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3&
 
 /// Builds the outline. Reuses the memory of `out`.
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
-                  const RowGrid& rows, Outline& out);
+                  const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
 
 /// The visible surfaces on the scan line z, from left to right: from the z-band the row lies in, or solved directly
 /// where the band's order does not hold to within rounding. Returns how many were written to `cuts` (room for
 /// kMaxCuts).
 int cuts_on_row(const Outline& outline, double z, Cut* cuts);
+
+/// The same by the row's z-band alone; absent where the row has to be solved directly.
+std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts);
 
 /// Where a boundary crosses the row zeta: xi, infinite at the ends of a row.
 double intercept(const Outline& outline, const Boundary& boundary, double zeta);

@@ -68,9 +68,13 @@ FramePaints make_frame_paints(const Scene& scene) {
     return paints;
 }
 
-void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, FramePaints& paints) {
+void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, const Quality& quality,
+                   FramePaints& paints) {
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& texture = scene.textures[i];
+        const int terms = static_cast<int>(texture.terms.size());
+        paints.textures[i].count = std::max(std::min(terms, 1), terms - std::max(0, quality.terms_left_out));
+        paints.textures[i].sine = quality.sine;
         for (std::size_t k = 0; k < texture.terms.size(); ++k) {
             const double w = paints.terms[i][k].frequency, p = paints.terms[i][k].phase;
             FrameTexture::Term& out = paints.textures[i].terms[k];

@@ -19,8 +19,9 @@ struct FramePaints {
 /// Sets up what does not change from frame to frame, sorting each texture's terms by frequency.
 FramePaints make_frame_paints(const Scene& scene);
 
-/// Brings texture phases to an eye point and a time (drift).
-void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, FramePaints& paints);
+/// Brings texture phases to an eye point and a time (drift), and terms to a quality.
+void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, const Quality& quality,
+                   FramePaints& paints);
 
 /// Unit vector to the sun in scene axes.
 glm::dvec3 direction_to_sun(const Sun& sun);

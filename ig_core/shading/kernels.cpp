@@ -115,6 +115,23 @@ void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> l
     row.red[at] = red, row.green[at] = green, row.blue[at] = blue;
 }
 
+void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
+    const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
+    const auto average = [&](const std::vector<float>& above, std::vector<float>& below) HWY_ATTR {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += hn::Lanes(d)) {
+            V left, right, lower_left, lower_right;
+            hn::LoadInterleaved2(d, above.data() + 2 * i, left, right);
+            hn::LoadInterleaved2(d, below.data() + 2 * i, lower_left, lower_right);
+            const V sum = hn::Add(hn::Add(left, right), hn::Add(lower_left, lower_right));
+            hn::StoreU(hn::Mul(sum, hn::Set(d, 0.25F)), d, below.data() + i);
+        }
+    };
+    average(upper.red, lower.red);
+    average(upper.green, lower.green);
+    average(upper.blue, lower.blue);
+}
+
 void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgba) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
@@ -147,6 +164,7 @@ HWY_EXPORT(Shade);
 HWY_EXPORT(TextureValues);
 HWY_EXPORT(CompositeWhole);
 HWY_EXPORT(CompositePartial);
+HWY_EXPORT(AverageSquares);
 HWY_EXPORT(PackSrgb8);
 
 void ShadeBuffer::resize(std::size_t count) {
@@ -168,6 +186,9 @@ void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> s
 void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
                        ShadeBuffer& row) {
     HWY_DYNAMIC_DISPATCH(CompositePartial)(buffer, layers, column, sub_lines, row);
+}
+void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
+    HWY_DYNAMIC_DISPATCH(AverageSquares)(upper, count, lower);
 }
 void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba) {
     HWY_DYNAMIC_DISPATCH(PackSrgb8)(row, count, rgba);

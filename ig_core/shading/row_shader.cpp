@@ -1,8 +1,10 @@
 #include "ig_core/shading/row_shader.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace quadrig {
 namespace {
@@ -14,21 +16,25 @@ std::array<float, 3> to_float(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Where a span is sampled: on the mean of its sub-scan lines, between its outermost ends.
+/// Where a span is sampled: on the mean of its sub-scan lines, between the means of their ends, which a convex outline
+/// has inside it; but no farther in than half a column from its outermost end, where edges are nearly level.
 struct SampleRange {
-    double z = 0.0, from = std::numeric_limits<double>::infinity(), to = -std::numeric_limits<double>::infinity();
+    double z = 0.0, from = 0.0, to = 0.0;
 };
 SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
-    SampleRange range;
+    constexpr double kFarthestIn = 0.5;
+    SampleRange mean;
+    double outer_from = std::numeric_limits<double>::infinity(), outer_to = -outer_from;
     int lines = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
         if (!(span.from[i] < span.to[i])) continue;
-        range.z += row.z[i];
-        range.from = std::min(range.from, span.from[i]), range.to = std::max(range.to, span.to[i]);
+        mean.z += row.z[i], mean.from += span.from[i], mean.to += span.to[i];
+        outer_from = std::min(outer_from, span.from[i]), outer_to = std::max(outer_to, span.to[i]);
         ++lines;
     }
-    range.z /= std::max(1, lines);
-    return range;
+    const double share = 1.0 / std::max(1, lines);
+    return {share * mean.z, std::min(share * mean.from, outer_from + kFarthestIn),
+            std::max(share * mean.to, outer_to - kFarthestIn)};
 }
 
 /// Whether neither span hides any of the other: faces of one object, and objects that abut.
@@ -72,6 +78,8 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
     ShadeInput in;
     in.count = to - from;
     in.light = &frame.light;
+    in.smooth_stretches = frame.quality.smooth_stretches;
+    in.pairs = frame.quality.shading == ShadingRate::half;
     const double first = from + 0.5, x = row.x(first);
     in.least_column = static_cast<float>(range.from - first);
     in.most_column = static_cast<float>(range.to - first);
@@ -110,6 +118,18 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
     in.plane_u_step = static_cast<float>(depth.at(first).slope);
     return in;
 }
+
+#ifndef NDEBUG
+namespace {
+/// Whether nothing is infinite or NaN.
+bool all_numbers(const ShadeBuffer& row, int columns) {
+    const auto finite = [&](const std::vector<float>& plane) {
+        return std::all_of(plane.begin(), plane.begin() + columns, [](float x) { return std::isfinite(x); });
+    };
+    return finite(row.red) && finite(row.green) && finite(row.blue);
+}
+}  // namespace
+#endif
 
 void RowShader::plan(const RowSweep& sweep) {
     jobs_.clear();
@@ -151,7 +171,7 @@ void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const L
     }
 }
 
-void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba) {
+void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep) {
     plan(sweep);
     // In buffer order: what a job writes past its end is overwritten by the next.
     for (const ShadeJob& job : jobs_)
@@ -176,7 +196,16 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             composite_partial(buffer_, partial_, column, row.sub_lines, row_);
         }
     }
-    pack_srgb8(row_, row.columns, rgba);
+    assert(all_numbers(row_, row.columns));
+}
+
+void RowShader::write(int columns, std::uint8_t* rgba) const { pack_srgb8(row_, columns, rgba); }
+
+void RowShader::keep_upper() { std::swap(row_, upper_); }
+
+void RowShader::write_averaged(int columns, std::uint8_t* rgba) {
+    average_squares(upper_, columns, row_);
+    pack_srgb8(row_, columns, rgba);
 }
 
 }  // namespace quadrig

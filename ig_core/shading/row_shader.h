@@ -17,6 +17,7 @@ struct FrameShading {
     const std::vector<Solid>* solids = nullptr;  ///< by object
     const FramePaints* paints = nullptr;
     FrameLight light;
+    Quality quality;
 };
 
 /// The numbers of one job on its row.
@@ -25,7 +26,14 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
 /// Shades and composites one row at a time; keeps its memory from row to row.
 class RowShader {
   public:
-    void draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep, std::uint8_t* rgba);
+    /// Draws one row in linear light.
+    void draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep);
+    /// The row drawn last, as 8-bit sRGB.
+    void write(int columns, std::uint8_t* rgba) const;
+    /// Keeps the row drawn last as the upper of two, and averages those two over squares of 2 x 2 columns, as 8-bit
+    /// sRGB of half as many columns.
+    void keep_upper();
+    void write_averaged(int columns, std::uint8_t* rgba);
 
   private:
     void plan(const RowSweep& sweep);
@@ -38,7 +46,7 @@ class RowShader {
     std::vector<std::uint32_t> samples_;
     std::vector<PartialLayer> partial_;
     std::vector<std::uint32_t> partial_layers_;  // parallel to partial_: indices into RowSweep::layers
-    ShadeBuffer buffer_, row_;
+    ShadeBuffer buffer_, row_, upper_;
 };
 
 }  // namespace quadrig

@@ -74,15 +74,22 @@ HWY_INLINE Appearance<V> appearance(D d, const ShadeInput& in, V column, const S
     return seen;
 }
 
-template <class D, class V = hn::Vec<D>>
+/// `kPixels` neighbours are given each sample.
+template <int kPixels = 1, class D, class V = hn::Vec<D>>
 HWY_INLINE void store(D d, const ShadeInput& in, const Appearance<V>& seen, ShadeBuffer& buffer, std::size_t at) {
     const Vec3<V> base = splat(d, in.paint->colour);
     Vec3<V> colour{hn::Mul(base.x, seen.light), hn::Mul(base.y, seen.light), hn::Mul(base.z, seen.light)};
     if (in.light->haze) colour = mul_add(hn::Sub(hn::Set(d, 1.0F), seen.kept), splat(d, in.light->haze_colour), colour);
-    hn::StoreU(colour.x, d, buffer.red.data() + at);
-    hn::StoreU(colour.y, d, buffer.green.data() + at);
-    hn::StoreU(colour.z, d, buffer.blue.data() + at);
-    hn::StoreU(hn::Clamp(seen.edge, hn::Zero(d), hn::Set(d, 1.0F)), d, buffer.opacity.data() + at);
+    const auto write = [&](V value, std::vector<float>& plane) HWY_ATTR {
+        if constexpr (kPixels == 1)
+            hn::StoreU(value, d, plane.data() + at);
+        else
+            hn::StoreInterleaved2(value, value, d, plane.data() + at);
+    };
+    write(colour.x, buffer.red);
+    write(colour.y, buffer.green);
+    write(colour.z, buffer.blue);
+    write(hn::Clamp(seen.edge, hn::Zero(d), hn::Set(d, 1.0F)), buffer.opacity);
 }
 
 /// What the samples of a block tell about it.
@@ -183,14 +190,30 @@ HWY_NOINLINE void sample_slow_terms(const ShadeInput& in, const BlockSamples& sa
     samples.interpolate(lost_y, slow.lost_y);
 }
 
+/// One sample for every two pixels, taken where they meet.
+HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t n = hn::Lanes(d);
+    const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
+    SlowTerms none;
+    none.count = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); i += 2 * n) {
+        const V column = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, 2.0F), hn::Set(d, static_cast<float>(i) + 0.5F));
+        const auto seen = appearance(d, in, hn::Clamp(column, least, most), none, 0);
+        store<2>(d, in, seen, buffer, offset + i);
+    }
+}
+
 HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    if (in.pairs) return shade_pairs(in, buffer, offset);
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const auto total = static_cast<std::size_t>(in.count);
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
     SlowTerms slow;
-    bool coarse = in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
-    bool rough = false;                                // the last block had nothing to interpolate
+    bool coarse = in.smooth_stretches && in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
+    bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
         // A block much shorter than its samples reach is as soon done without.
@@ -218,7 +241,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
             sample_slow_terms(in, samples, probe.slow_terms, slow);
             rough = probe.slow_terms == 0;
         } else {
-            rough = false;
+            rough = !in.smooth_stretches;
         }
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
             const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);

@@ -36,6 +36,9 @@ struct PartialLayer {
 void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
                        ShadeBuffer& row);
 
+/// `lower` becomes the mean of 2 x 2 samples: of columns 2 i and 2 i + 1 of both rows, `count` of them, from the left.
+void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower);
+
 /// Linear light to 8-bit sRGB, R G B 255, `count` pixels of a row. Error against exact rounding below 0.02 of a step.
 void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba);
 

@@ -21,6 +21,7 @@ struct FrameTexture {
     };
     std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
     int count = 0;
+    SineMethod sine = SineMethod::polynomial;
     float vertical = 0;  ///< u of Eq 15
 };
 
@@ -53,6 +54,8 @@ struct ShadeJob {
 struct ShadeInput {
     enum class Kind : std::uint8_t { sky, plane, quadric };
     Kind kind = Kind::sky;
+    bool smooth_stretches = true;  ///< interpolate what changes slowly
+    bool pairs = false;            ///< one sample for two columns
     int count = 0;
     float least_column = 0, most_column = 0;  ///< sample points stay within the surface
     // Ray direction in scene axes and its parts: d = ray + column * ray_step; along_row the step to the next row.

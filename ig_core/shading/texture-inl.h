@@ -38,12 +38,13 @@ struct TextureSums {
 /// `sums`. `footprint_x` and `footprint_y` are the mean squared growth of the two sine families' arguments per unit
 /// frequency over a pixel (m^2): each sine is faded as (1 - w^2 footprint / 48)^2, which follows the box filter's
 /// exp(-w^2 footprint / 24) and ends a little above the sampling frequency, where the term is dropped.
-template <bool kVertical, bool kLostVariance, class D, class V = hn::Vec<D>>
+template <SineMethod kMethod, bool kVertical, bool kLostVariance, class D, class V = hn::Vec<D>>
 HWY_INLINE void add_terms(D d, const FrameTexture& texture, int first, int last, const Vec3<V>& p, V footprint_x,
                           V footprint_y, TextureSums<V>& sums) {
     constexpr float kFade = 4.0F * 9.8696044F / 48.0F;  // (2 pi)^2 / 48, for frequencies in turns
     const V zero = hn::Zero(d), quarter = hn::Set(d, 0.25F), half = hn::Set(d, 0.5F);
-    const Sine<V> sine(d, 1.0F), across(d, 0.25F), up(d, 0.5F * texture.vertical);
+    using SineOf = Sine<V, kMethod>;
+    const SineOf sine(d, 1.0F), across(d, 0.25F), up(d, 0.5F * texture.vertical);
     for (int i = first; i < last; ++i) {
         const FrameTexture::Term& term = texture.terms[static_cast<std::size_t>(i)];
         const float w = term.turns_per_metre, root = term.root_half_weight;
@@ -70,7 +71,7 @@ HWY_INLINE void add_terms(D d, const FrameTexture& texture, int first, int last,
         phase_x = across.add(hn::MulAdd(halved, p.y, hn::Set(d, term.half_y)), phase_x);
         phase_y = across.add(hn::MulAdd(halved, p.x, hn::Set(d, term.half_x)), phase_y);
         if constexpr (kVertical) {
-            const V r = Sine<V>::reduced(hn::MulAdd(halved, p.z, hn::Set(d, term.half_z)));
+            const V r = SineOf::reduced(hn::MulAdd(halved, p.z, hn::Set(d, term.half_z)));
             const auto sine_z = up.of_reduced(r), cosine_z = up.of_reduced(hn::Sub(quarter, hn::Abs(r)));
             phase_x = hn::MulAdd(sine_z.parabola, sine_z.over, phase_x);
             phase_y = hn::MulAdd(cosine_z.parabola, cosine_z.over, phase_y);
@@ -80,19 +81,37 @@ HWY_INLINE void add_terms(D d, const FrameTexture& texture, int first, int last,
     }
 }
 
-/// add_terms() as the texture and its use need it.
-template <class D, class V = hn::Vec<D>>
-HWY_NOINLINE void add_terms(D d, const FrameTexture& texture, bool lost_variance, int first, int last, const Vec3<V>& p,
-                            V footprint_x, V footprint_y, TextureSums<V>& sums) {
+template <SineMethod kMethod, class D, class V = hn::Vec<D>>
+HWY_NOINLINE void add_terms_by(D d, const FrameTexture& texture, bool lost_variance, int first, int last,
+                               const Vec3<V>& p, V footprint_x, V footprint_y, TextureSums<V>& sums) {
     if (texture.vertical != 0.0F) {
         if (lost_variance)
-            add_terms<true, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
+            add_terms<kMethod, true, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
         else
-            add_terms<true, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
+            add_terms<kMethod, true, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
     } else if (lost_variance) {
-        add_terms<false, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
+        add_terms<kMethod, false, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
     } else {
-        add_terms<false, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
+        add_terms<kMethod, false, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
+    }
+}
+
+/// add_terms() as the texture, its use and the frame's quality need it.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void add_terms(D d, const FrameTexture& texture, bool lost_variance, int first, int last, const Vec3<V>& p,
+                          V footprint_x, V footprint_y, TextureSums<V>& sums) {
+    const auto add = [&]<SineMethod kMethod>(std::integral_constant<SineMethod, kMethod>) HWY_ATTR {
+        add_terms_by<kMethod>(d, texture, lost_variance, first, last, p, footprint_x, footprint_y, sums);
+    };
+    switch (texture.sine) {
+        case SineMethod::polynomial:
+            return add(std::integral_constant<SineMethod, SineMethod::polynomial>());
+        case SineMethod::parabola:
+            return add(std::integral_constant<SineMethod, SineMethod::parabola>());
+        case SineMethod::table:
+            return add(std::integral_constant<SineMethod, SineMethod::table>());
+        case SineMethod::library:
+            return add(std::integral_constant<SineMethod, SineMethod::library>());
     }
 }
 

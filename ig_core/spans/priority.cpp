@@ -33,11 +33,28 @@ class Crossings {
         between(left, right);
     }
 
+    /// By distances that are linear between a span's ends on the line (Gardner 1984, 2.1). Ground and decks have no
+    /// ends and keep their own.
+    void search_linear(const RowSpan& a, const RowSpan& b, std::size_t line, double from, double to) {
+        const double gap_l = distance(b_, b, line, from) - distance(a_, a, line, from);
+        const double gap_r = distance(b_, b, line, to) - distance(a_, a, line, to);
+        const auto in_front = [&](double gap) { return gap > 0.0 || (gap == 0.0 && a_wins_ties_); };
+        starts_in_front = in_front(gap_l);
+        if (starts_in_front != in_front(gap_r)) at[count++] = from + (to - from) * (gap_l / (gap_l - gap_r));
+    }
+
     bool starts_in_front = false;
     std::array<double, kMaxCrossings> at{};
     std::size_t count = 0;
 
   private:
+    [[nodiscard]] static double distance(const DepthOnLine& depth, const RowSpan& span, std::size_t line,
+                                         double column) {
+        if (span.surface.outline == nullptr) return 1.0 / depth.value(column);
+        const double left = 1.0 / depth.value(span.from[line]), right = 1.0 / depth.value(span.to[line]);
+        return left + (right - left) * ((column - span.from[line]) / (span.to[line] - span.from[line]));
+    }
+
     struct End {
         double column;
         DepthOnLine::Sample a, b;
@@ -146,7 +163,8 @@ Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, Cr
     // Surfaces of one object lie side by side.
     if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
 
-    if (const auto proven = proven_on_outer_lines(a, b, row)) return *proven;
+    if (row.distance == DistanceRule::exact)
+        if (const auto proven = proven_on_outer_lines(a, b, row)) return *proven;
 
     for (RowSpan& piece : pieces) piece.splits = 0;
     bool front = false, behind = false;
@@ -166,7 +184,10 @@ Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, Cr
             from += inset, to -= inset;
         }
         Crossings crossings(a, b, row, row.z[line]);
-        crossings.search(from, to);
+        if (row.distance == DistanceRule::exact)
+            crossings.search(from, to);
+        else
+            crossings.search_linear(a, b, line, from, to);
         if (a.splits >= kMaxSplits) crossings.count = 0;
         bool in_front = crossings.starts_in_front;
         if (!first_in_front) first_in_front = in_front;

@@ -1,8 +1,9 @@
 /// Which of two overlapping spans is in front (Gardner 1984, 2.1, interobject visibility).
 ///
-/// The paper interpolates distance linearly between a span's ends. Here the answer is exact: inverse depth is concave
-/// along a scan line on every convex object, so a chord of the nearer and the tangents of the farther surface either
-/// prove the order over a whole interval, or the interval is halved. Surfaces that cross are cut where they do.
+/// The answer is exact: inverse depth is concave along a scan line on every convex object, so a chord of the nearer and
+/// the tangents of the farther surface either prove the order over a whole interval, or the interval is halved.
+/// Surfaces that cross are cut where they do. DistanceRule::interpolated is the paper's own rule: the distance of an
+/// object's span is linear between its ends, so two spans cross once at most.
 #pragma once
 
 #include <array>

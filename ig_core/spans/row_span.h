@@ -46,6 +46,7 @@ struct PixelRow {
     int row = 0;
     int sub_lines = 1;
     bool point_samples = false;  ///< a column counts as covered if its centre is: for ids and depth
+    DistanceRule distance = DistanceRule::exact;
     int columns = 0;
     double left = 0, column_step = 1;          ///< x = left + column * column_step
     std::array<double, kMaxSubScanLines> z{};  ///< image-plane z of each sub-scan line

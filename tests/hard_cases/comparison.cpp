@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace quadrig::test {
@@ -74,39 +73,25 @@ std::string colour_text(const std::uint8_t* colour) {
 
 }  // namespace
 
-VisibilityErrors visibility_errors(const GroundTruth& answer, const GroundTruth& exact,
-                                   const std::vector<std::uint8_t>& ties, int width) {
-    VisibilityErrors errors;
-    errors.pixels = static_cast<int>(exact.object_ids.size());
-    for (std::size_t pixel = 0; pixel < exact.object_ids.size(); ++pixel) {
-        if (exact.object_ids[pixel] >= 0) ++errors.drawn;
-        if (ties[pixel] == reference::kTie) ++errors.ties;
-        const bool same = answer.object_ids[pixel] == exact.object_ids[pixel] &&
-                          answer.surface_ids[pixel] == exact.surface_ids[pixel];
-        const auto described = [&] {
-            return place_text(pixel, width) + ": " + seen_text(answer, pixel) + ", exact: " + seen_text(exact, pixel);
-        };
-        if (!same && ties[pixel] != reference::kTie && errors.wrong++ == 0) errors.first_wrong = described();
-        if (!same || exact.object_ids[pixel] == kSkyId) continue;
-        const double error = std::abs(answer.depth[pixel] - exact.depth[pixel]) / exact.depth[pixel];
-        const double depth = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-        if (depth <= errors.depth) continue;
-        errors.depth = depth;
-        errors.deepest_error = described();
-    }
-    return errors;
-}
-
-VisibilityErrors visibility_errors(const Scene& scene, const View& view) {
+VisibilityErrors visibility_errors(const Scene& scene, const View& view, const Quality& quality) {
     std::vector<std::uint8_t> ties;
     const GroundTruth exact = reference::ground_truth(scene, view, &ties);
-    return visibility_errors(ImageGenerator(scene).ground_truth(view), exact, ties, view.image.width);
+    const GroundTruth answer = ImageGenerator(scene).ground_truth(view, quality);
+    VisibilityErrors errors{reference::visibility_error(answer, exact, ties), {}, {}};
+    const auto describe = [&](std::size_t pixel, std::string& text) {
+        if (pixel != errors.kNone)
+            text = place_text(pixel, view.image.width) + ": " + seen_text(answer, pixel) +
+                   ", exact: " + seen_text(exact, pixel);
+    };
+    describe(errors.first_wrong, errors.first_wrong_text);
+    describe(errors.deepest, errors.deepest_text);
+    return errors;
 }
 
 PictureErrors picture_errors(const Scene& scene, const View& view) {
     const int width = view.image.width, height = view.image.height;
     Pixels drawn(width, height);
-    ImageGenerator(scene).render(view, {}, {.sub_scan_lines = 4}, drawn.image());
+    ImageGenerator(scene).render(view, {}, {.sub_scan_lines = 8}, drawn.image());
     const Pixels exact = supersampled(scene, view, width * height < 1000 ? kFine : kCoarse);
     PictureErrors errors;
     for (int row = 0; row < height; ++row) {

@@ -5,23 +5,16 @@
 #include <string>
 
 #include "ig_core/image_generator.h"
-#include "ig_core/reference/reference_renderer.h"
+#include "ig_core/reference/error.h"
 
 namespace quadrig::test {
 
-/// Ids and depth at the pixel centres.
-struct VisibilityErrors {
-    int pixels = 0;
-    int ties = 0;               ///< pixels at which the answer changes when the ray moves by 1e-6 pixel
-    int drawn = 0;              ///< pixels that show an object
-    int wrong = 0;              ///< other (object, surface) than the reference's, ties apart
-    double depth = 0.0;         ///< largest |k - k_exact| / k_exact where identity agrees
-    std::string first_wrong;    ///< where, and what was seen there; empty if nothing is wrong
-    std::string deepest_error;  ///< where `depth` was found
+/// Ids and depth at the pixel centres, and in words where they are wrong.
+struct VisibilityErrors : reference::VisibilityError {
+    std::string first_wrong_text;  ///< empty if nothing is wrong
+    std::string deepest_text;      ///< where `depth` was found
 };
-VisibilityErrors visibility_errors(const GroundTruth& answer, const GroundTruth& exact,
-                                   const std::vector<std::uint8_t>& ties, int width);
-VisibilityErrors visibility_errors(const Scene& scene, const View& view);
+VisibilityErrors visibility_errors(const Scene& scene, const View& view, const Quality& quality = {});
 
 /// The drawn picture against the supersampled one, in 8-bit sRGB steps. A value that is not a number, or infinite,
 /// shows as a black or white speck: `outlier` is how far the worst pixel lies outside the range of colours that the

@@ -25,9 +25,9 @@ void check_cases(const std::string& kind) {
         const HardCase hard_case = read_hard_case(file);
         INFO(hard_case.name << ": " << hard_case.reason);
         const VisibilityErrors seen = visibility_errors(hard_case.scene, hard_case.view);
-        INFO(seen.first_wrong);
+        INFO(seen.first_wrong_text);
         CHECK(seen.wrong == 0);
-        INFO(seen.deepest_error);
+        INFO(seen.deepest_text);
         const auto limit = kDepthLimits.find(hard_case.name);
         CHECK(seen.depth <= (limit == kDepthLimits.end() ? 1e-6 : limit->second));
         if (limit != kDepthLimits.end()) CHECK(seen.depth > 1e-6);

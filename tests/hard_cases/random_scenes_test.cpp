@@ -19,14 +19,14 @@ constexpr int kScenes = 200;
 TEST_CASE("random scenes: no pixel but a tie differs from the exact answer, and depth agrees to 1e-6") {
     const int scenes = trials(kScenes);
     std::cout << "random scenes: seed " << seed() << ", " << scenes << " scenes\n";
-    int drawn = 0, ties = 0;
+    std::int64_t drawn = 0, ties = 0;
     for (int trial = 0; trial < scenes; ++trial) {
         const RandomScene random = random_scene(trial, 320, 240);
         const VisibilityErrors seen = visibility_errors(random.scene, random.view);
         INFO("seed " << seed() << " trial " << trial << " of " << random.scene.objects.size() << " objects");
-        INFO(seen.first_wrong);
+        INFO(seen.first_wrong_text);
         CHECK(seen.wrong == 0);
-        INFO(seen.deepest_error);
+        INFO(seen.deepest_text);
         CHECK(seen.depth <= 1e-6);
         drawn += seen.drawn;
         ties += seen.ties;

@@ -32,7 +32,7 @@ Sight random_sight(int trial) {
                       true, 1 + random.below(4));
     ExactSolid exact = exact_solid(object, {eye});
     EyeSolid solid;
-    look_at(make_solid(object), {eye}, eye_from_scene, false, false, solid);
+    look_at(make_solid(object), {eye}, eye_from_scene, false, false, SetUp::anchored, solid);
     EyeForms forms(exact, eye_from_scene, solid);
     return {std::move(object), {eye}, eye_from_scene, std::move(exact), solid, std::move(forms)};
 }
@@ -257,7 +257,7 @@ TEST_CASE("the first surface of a ray through an outline's solid is the one that
     for (int trial = 0; trial < trials(1000); ++trial) {
         const Sight sight = random_sight(trial);
         EyeSolid solid;
-        look_at(make_solid(sight.object), sight.eye, sight.eye_from_scene, true, false, solid);
+        look_at(make_solid(sight.object), sight.eye, sight.eye_from_scene, true, false, SetUp::anchored, solid);
         Randomness random(trial);
         for (int i = 0; i < 30; ++i) {
             const Real3 d = random_ray(random);

@@ -1,0 +1,51 @@
+/// What a picture may do without: every approximation of the image generator has a name here, so that its cost and its
+/// error can be measured, and a frame that is short of time can choose.
+#pragma once
+
+#include <cstdint>
+
+namespace quadrig {
+
+/// How the forms of an outline are computed (outline/image_forms.h).
+enum class SetUp : std::uint8_t {
+    anchored,        ///< about the object's own anchor: no large numbers cancel
+    textbook,        ///< as the paper writes them, in eye coordinates, double (Gardner 1984, Eq 4 to 14)
+    textbook_single  ///< the same in float
+};
+
+/// Which distance puts two spans in order (spans/priority.h).
+enum class DistanceRule : std::uint8_t {
+    exact,
+    interpolated  ///< linearly between a span's ends, as in the paper (Gardner 1984, 2.1)
+};
+
+/// How the texturing function's sines are evaluated; errors of one sine (shading/vector_math-inl.h).
+enum class SineMethod : std::uint8_t {
+    polynomial,  ///< a quadratic in a parabola, 1e-5
+    parabola,    ///< one multiplication less, 1e-3
+    table,       ///< the nearest of 1024 entries, 3.1e-3
+    library      ///< Highway's own, 3e-7
+};
+
+/// Shading samples of a surface per pixel.
+enum class ShadingRate : std::uint8_t {
+    half,  ///< two neighbours on a row share one
+    one,
+    four  ///< the whole picture is drawn on a grid twice as fine, visibility too, and its light averaged
+};
+
+struct Quality {
+    int sub_scan_lines =
+        2;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8; 0 is none but the pixels' centres
+    SetUp set_up = SetUp::anchored;
+    DistanceRule distance = DistanceRule::exact;
+    SineMethod sine = SineMethod::polynomial;
+    int terms_left_out = 0;        ///< of every texture's sines the fastest, but never the last one; 0..7
+    bool smooth_stretches = true;  ///< what changes slowly along a row is interpolated between samples
+    ShadingRate shading = ShadingRate::one;
+    double smallest_feature = 0.0;  ///< pixels: objects whose outlines are less high are left out
+
+    friend bool operator==(const Quality&, const Quality&) = default;
+};
+
+}  // namespace quadrig

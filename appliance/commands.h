@@ -22,5 +22,6 @@ void add_run(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_outline(CLI::App& program, Action& action);
+void add_generate(CLI::App& program, Action& action);
 
 }  // namespace quadrig::appliance

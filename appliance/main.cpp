@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     add_bench(program, action);
     add_check(program, action);
     add_outline(program, action);
+    add_generate(program, action);
     try {
         program.parse(argc, argv);
         action();

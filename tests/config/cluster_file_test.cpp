@@ -214,7 +214,7 @@ TEST_CASE("the scenes for measuring hold what they say, in few lines, and load f
     REQUIRE(landscape.ground);
     CHECK(landscape.ground->paint.texture);
     const std::string text = config::read_text_file(QUADRIG_SOURCE_DIR "/config/scenes/bench/landscape.toml");
-    CHECK(std::count(text.begin(), text.end(), '\n') <= 75);
+    CHECK(std::count(text.begin(), text.end(), '\n') <= 60);
 
     const Scene small = bench_scene("trees");
     CHECK(kind_of(small, "hill").objects == 12);

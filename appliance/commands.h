@@ -23,5 +23,7 @@ void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_outline(CLI::App& program, Action& action);
 void add_accuracy(CLI::App& program, Action& action);
+void add_generate(CLI::App& program, Action& action);
+void add_patterns(CLI::App& program, Action& action);
 
 }  // namespace quadrig::appliance

@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
     add_check(program, action);
     add_outline(program, action);
     add_accuracy(program, action);
+    add_generate(program, action);
+    add_patterns(program, action);
     try {
         program.parse(argc, argv);
         action();

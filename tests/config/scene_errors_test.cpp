@@ -55,7 +55,7 @@ const std::vector<Mistake> kMistakes{
     {"haze without visibility", "visibility = 20000.0", "# none", "haze.visibility", "expected this key, found none",
      std::size_t(-1)},
     {"a ground texture that is not there", "texture = \"grass\"", "texture = \"gras\"", "ground.texture",
-     "expected the name of a [[texture]], found \"gras\""},
+     "expected the name of a [[texture]] or of a pattern, found \"gras\""},
     {"an object texture that is not there", "texture = \"leaves\"", "texture = \"leafs\"", "object[0].texture",
      "found \"leafs\""},
     {"a texture weight above 1", "texture_weight = 0.6", "texture_weight = 1.01", "ground.texture_weight",

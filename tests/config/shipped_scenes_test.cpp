@@ -8,13 +8,13 @@ using namespace quadrig;
 
 TEST_CASE("every scene that ships is in order") {
     int scenes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(QUADRIG_SOURCE_DIR "/config/scenes")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(QUADRIG_SOURCE_DIR "/config/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         INFO(entry.path());
         ++scenes;
         CHECK_NOTHROW(config::read_scene(entry.path()));
     }
-    CHECK(scenes >= 4);
+    CHECK(scenes >= 7);
 }
 
 TEST_CASE("the landscapes of the recorded flights have hills, translucent trees and clouds over a textured ground") {

@@ -1,0 +1,102 @@
+#include "config/object_section.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "config/convexity.h"
+
+namespace quadrig::config {
+namespace {
+
+constexpr NumberRule kThreshold{"a threshold in -10..10", [](double x) { return x >= -10.0 && x <= 10.0; }};
+
+Attitude attitude_from(const glm::dvec3& degrees) { return {{degrees.x}, {degrees.y}, {degrees.z}}; }
+
+Translucence read_translucence(const TomlSection& section) {
+    Translucence translucence;
+    translucence.threshold = section.number("threshold", kThreshold);
+    translucence.limb_threshold = section.number_or("limb_threshold", kThreshold, translucence.threshold);
+    translucence.softness = section.number_or("softness", kPositive, translucence.softness);
+    if (translucence.limb_threshold < translucence.threshold) {
+        section.refuse("limb_threshold", "at least the threshold", "less");
+    }
+    return translucence;
+}
+
+Ellipsoid read_ellipsoid(const TomlSection& section) {
+    Ellipsoid ellipsoid;
+    ellipsoid.centre = {section.triple("centre", kCoordinate)};
+    ellipsoid.semi_axes = section.triple("semi_axes", kLength);
+    if (section.has("attitude")) {
+        ellipsoid.attitude = attitude_from(section.triple("attitude", kTurn));
+        if (section.has("heading")) section.refuse("heading", "either heading or attitude", "both");
+    }
+    if (section.has("heading")) ellipsoid.attitude.heading = {section.number("heading", kTurn)};
+    return ellipsoid;
+}
+
+Hill read_hill(const TomlSection& section) {
+    return {{section.triple("apex", kCoordinate)},
+            section.number("radius_of_curvature", kLength),
+            section.number("slope", kSlope)};
+}
+
+Shape read_shape(const TomlSection& object) {
+    const int shapes = int{object.has("ellipsoid")} + int{object.has("hill")} + int{object.has("quadric")};
+    if (shapes != 1) {
+        object.refuse(std::string("expected one of ellipsoid, hill, quadric, found ") +
+                      (shapes == 0 ? "none" : "more"));
+    }
+    if (const auto ellipsoid = object.optional_table("ellipsoid", {"centre", "semi_axes", "heading", "attitude"})) {
+        return read_ellipsoid(*ellipsoid);
+    }
+    if (const auto hill = object.optional_table("hill", {"apex", "radius_of_curvature", "slope"}))
+        return read_hill(*hill);
+    GeneralQuadric quadric;
+    const auto numbers =
+        object.numbers("quadric", kCoefficient, quadric.coefficients.size(), quadric.coefficients.size());
+    std::copy(numbers.begin(), numbers.end(), quadric.coefficients.begin());
+    return quadric;
+}
+
+std::vector<BoundingPlane> read_planes(const TomlSection& object) {
+    std::vector<BoundingPlane> planes;
+    for (const auto& row : object.rows("planes", kCoefficient, 4, kMaxPlanes)) {
+        if (row[0] == 0.0 && row[1] == 0.0 && row[2] == 0.0) {
+            object.refuse("planes", planes.size(), "a normal B1, B2, B3 other than 0", "0, 0, 0");
+        }
+        planes.push_back({{row[0], row[1], row[2], row[3]}});
+    }
+    return planes;
+}
+
+}  // namespace
+
+Paint read_paint(const TomlSection& section, Textures& textures) {
+    Paint paint;
+    if (section.has("colour")) paint.colour = section.triple("colour", kColour);
+    if (const auto name = section.optional_text("texture")) {
+        paint.texture = textures.index_of(section, *name);
+    }
+    paint.texture_weight = section.number_or("texture_weight", kFraction, paint.texture_weight);
+    if (paint.texture_weight > 0.0 && !paint.texture) section.refuse("texture_weight", "a texture beside it", "none");
+    if (!section.has("translucence")) return paint;
+    if (!paint.texture) section.refuse("translucence", "a texture beside it", "none");
+    paint.translucence = read_translucence(section.table("translucence", {"threshold", "limb_threshold", "softness"}));
+    return paint;
+}
+
+Object read_object(const TomlSection& section, Textures& textures) {
+    Object object;
+    object.shape = read_shape(section);
+    object.planes = read_planes(section);
+    object.paint = read_paint(section, textures);
+    if (const auto* quadric = std::get_if<GeneralQuadric>(&object.shape)) {
+        if (const auto reason = why_not_convex(*quadric, object.planes)) {
+            section.refuse("quadric", "a solid Q <= 0 that is one convex piece within its planes", "that " + *reason);
+        }
+    }
+    return object;
+}
+
+}  // namespace quadrig::config

@@ -4,7 +4,6 @@
 #include <array>
 #include <numbers>
 
-#include "config/quality_preset.h"
 #include "display/contact_sheet.h"
 #include "ig_core/image_generator.h"
 
@@ -39,7 +38,7 @@ struct Stage {
         display::Picture picture(view.image.width, view.image.height);
         Environment environment;
         environment.seconds = seconds;
-        ImageGenerator(scene).render(view, environment, config::kDefaultQuality.quality, picture.image());
+        ImageGenerator(scene).render(view, environment, {}, picture.image());
         sheet.add(picture.image());
     }
 };

@@ -129,13 +129,6 @@ double TomlSection::number_or(std::string_view name, const NumberRule& rule, dou
     return has(name) ? number(name, rule) : absent;
 }
 
-bool TomlSection::flag_or(std::string_view name, bool absent) const {
-    if (!has(name)) return absent;
-    const auto* flag = required(name).as_boolean();
-    if (flag == nullptr) refuse(required(name), key_of(name), "true or false");
-    return flag->get();
-}
-
 std::vector<double> TomlSection::numbers(std::string_view name, const NumberRule& rule, std::size_t least,
                                          std::size_t most) const {
     return numbers_at(required(name), key_of(name), rule, least, most);

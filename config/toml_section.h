@@ -46,7 +46,6 @@ class TomlSection {
     [[nodiscard]] double number(std::string_view name, const NumberRule& rule) const;
     [[nodiscard]] bool flag_or(std::string_view name, bool absent) const;
     [[nodiscard]] double number_or(std::string_view name, const NumberRule& rule, double absent) const;
-    [[nodiscard]] bool flag_or(std::string_view name, bool absent) const;
     /// An array of `least` to `most` numbers.
     [[nodiscard]] std::vector<double> numbers(std::string_view name, const NumberRule& rule, std::size_t least,
                                               std::size_t most) const;

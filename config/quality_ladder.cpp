@@ -115,8 +115,8 @@ void write_quality_ladder(const QualityLadder& ladder, std::ostream& out) {
     for (const QualityStep& step : ladder) {
         const Quality& q = step.quality;
         out << "\n[[quality]]\nname = \"" << step.name << "\"\ncost = " << std::fixed << std::setprecision(2)
-            << step.cost << "\npsnr = " << std::setprecision(1) << step.psnr << std::defaultfloat << std::setprecision(6)
-            << "\nsub_scan_lines = " << q.sub_scan_lines << '\n';
+            << step.cost << "\npsnr = " << std::setprecision(1) << step.psnr << std::defaultfloat
+            << std::setprecision(6) << "\nsub_scan_lines = " << q.sub_scan_lines << '\n';
         if (q.set_up != usual.set_up) out << "set_up = \"" << name_of(kSetUps, q.set_up) << "\"\n";
         if (q.distance != usual.distance) out << "distance = \"" << name_of(kDistanceRules, q.distance) << "\"\n";
         if (q.sine != usual.sine) out << "sine = \"" << name_of(kSines, q.sine) << "\"\n";

@@ -1,6 +1,7 @@
 #include "config/scene_file.h"
 
 #include "config/cluster_section.h"
+#include "config/ground_section.h"
 #include "config/object_section.h"
 
 namespace quadrig::config {
@@ -41,7 +42,8 @@ Haze read_haze(const TomlSection& section, const Sky& sky) {
 Scene read_scene(const std::filesystem::path& file) {
     const toml::table document = parse_toml_file(file);
     const TomlSection root(file, document, "",
-                           {"scene", "sun", "sky", "haze", "ground", "cloud_deck", "texture", "cluster", "object"});
+                           {"scene", "sun", "sky", "haze", "ground", "runway", "ground_polygon", "light", "cloud_deck",
+                            "texture", "cluster", "object"});
     Scene scene;
     if (const auto header = root.optional_table("scene", {"name", "origin"})) {
         scene.name = header->optional_text("name").value_or("");
@@ -65,6 +67,7 @@ Scene read_scene(const std::filesystem::path& file) {
          root.tables("cloud_deck", {"altitude", "colour", "texture", "texture_weight", "translucence"})) {
         scene.cloud_decks.push_back({section.number("altitude", kCoordinate), read_paint(section, textures)});
     }
+    add_ground_features(root, textures, scene);
     Names object_names;
     for (const auto& section : root.tables("object", {"name", "ellipsoid", "hill", "quadric", "planes", "colour",
                                                       "texture", "texture_weight", "translucence"})) {

@@ -95,6 +95,9 @@ std::string summary(const Scene& scene) {
     }
     out << (scene.textures.empty() ? "\n" : ")\n");
     out << "ground:      " << (scene.ground ? "Z = 0" + texture_name(scene.ground->paint, scene) : "none") << '\n';
+    if (!scene.ground_polygons.empty())
+        out << "markings:    " << count(scene.ground_polygons.size(), "polygon") << '\n';
+    if (!scene.lights.empty()) out << "lights:      " << scene.lights.size() << '\n';
     out << "cloud decks: " << scene.cloud_decks.size();
     for (const CloudDeck& deck : scene.cloud_decks)
         out << "; at " << deck.altitude << " m" << texture_name(deck.paint, scene);

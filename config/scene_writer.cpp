@@ -107,6 +107,16 @@ void write_object(std::ostream& out, const Object& object, const Scene& scene) {
     write_paint(out, object.paint, scene);
 }
 
+void write_light(std::ostream& out, const LightPoint& light) {
+    const glm::dvec3& p = light.position.metres;
+    out << "[[light]]\npositions = [[" << Exact{p.x} << ", " << Exact{p.y} << ", " << Exact{p.z} << "]]\n";
+    write_colour(out, "colour", light.colour);
+    out << "intensity = " << Exact{light.intensity} << "\ndiameter = " << Exact{light.diameter} << '\n';
+    if (light.beam)
+        out << "beam = { heading = " << Exact{light.beam->heading.value}
+            << ", width = " << Exact{light.beam->width.value} << " }\n";
+}
+
 }  // namespace
 
 void write_scene(const Scene& scene, std::ostream& out) {
@@ -127,6 +137,14 @@ void write_scene(const Scene& scene, std::ostream& out) {
         out << "[ground]\n";
         write_paint(out, scene.ground->paint, scene);
     }
+    for (const GroundPolygon& polygon : scene.ground_polygons) {
+        out << "[[ground_polygon]]\ncorners = [";
+        for (std::size_t i = 0; i < polygon.corners.size(); ++i)
+            out << (i == 0 ? "[" : ", [") << Exact{polygon.corners[i].x} << ", " << Exact{polygon.corners[i].y} << ']';
+        out << "]\n";
+        write_paint(out, polygon.paint, scene);
+    }
+    for (const LightPoint& light : scene.lights) write_light(out, light);
     for (const CloudDeck& deck : scene.cloud_decks) {
         out << "[[cloud_deck]]\naltitude = " << Exact{deck.altitude} << '\n';
         write_paint(out, deck.paint, scene);

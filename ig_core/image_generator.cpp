@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_spans.h"
+#include "ig_core/spans/seen_features.h"
 #include "ig_core/workers.h"
 
 namespace quadrig {
@@ -27,6 +29,37 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 }
 
 int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
+
+/// Which of some things show on each strip of rows. Keeps its memory.
+class StripIndex {
+  public:
+    /// `strips_of(i)` is the first and the last strip of thing i; none where last < first.
+    template <class StripsOf>
+    void sort(int strips, std::size_t count, StripsOf&& strips_of) {
+        begin_.assign(static_cast<std::size_t>(strips) + 1, 0);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [from, to] = strips_of(i);
+            for (int s = from; s <= to; ++s) ++begin_[static_cast<std::size_t>(s) + 1];
+        }
+        for (std::size_t s = 1; s < begin_.size(); ++s) begin_[s] += begin_[s - 1];
+        things_.resize(begin_.back());
+        for (std::size_t i = count; i-- > 0;) {
+            const auto [from, to] = strips_of(i);
+            // Filled from the back, so that begin_ ends up where each strip starts.
+            for (int s = from; s <= to; ++s)
+                things_[--begin_[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
+        }
+        std::rotate(begin_.begin(), begin_.begin() + 1, begin_.end());
+        begin_.back() = static_cast<std::uint32_t>(things_.size());
+    }
+    [[nodiscard]] std::span<const std::uint32_t> on(int strip) const {
+        const auto s = static_cast<std::size_t>(strip);
+        return {things_.data() + begin_[s], begin_[s + 1] - begin_[s]};
+    }
+
+  private:
+    std::vector<std::uint32_t> begin_, things_;
+};
 
 /// Scratch of one worker; nothing in it survives a row but its memory.
 struct RowWorker {
@@ -49,6 +82,8 @@ struct ImageGenerator::Impl {
     void select(const View& view);
     void make_outlines(const View& view, const Quality& quality);
     void assign_strips(const View& view, double smallest_feature);
+    /// Ground, decks, markings and lights.
+    void look_at_features(const View& view, double pixel_height);
     /// Spans of one row, swept.
     void sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& planes, RowSweep& sweep) const;
 
@@ -62,7 +97,10 @@ struct ImageGenerator::Impl {
     std::vector<std::uint8_t> may_be_seen;
     std::vector<std::uint32_t> selected;
     std::vector<Outline> outlines;  // one for each selected object; only ever grows, to keep its memory
-    std::vector<std::uint32_t> strip_begin, strip_outlines;
+    StripIndex on_strips, polygons_on_strips, lights_on_strips;
+    PlaneDepth marked_plane;
+    std::vector<SeenPolygon> polygons;
+    std::vector<SeenLight> lights;
 };
 
 void ImageGenerator::Impl::select(const View& view) {
@@ -112,31 +150,48 @@ void ImageGenerator::Impl::assign_strips(const View& view, double smallest_featu
         };
         return std::pair{strip(first), strip(last)};
     };
-    strip_begin.assign(static_cast<std::size_t>(strips) + 1, 0);
-    for (std::size_t i = 0; i < selected.size(); ++i) {
-        const auto [from, to] = strips_of(outlines[i]);
-        for (int s = from; s <= to; ++s) ++strip_begin[static_cast<std::size_t>(s) + 1];
-    }
-    for (std::size_t s = 1; s < strip_begin.size(); ++s) strip_begin[s] += strip_begin[s - 1];
-    strip_outlines.resize(strip_begin.back());
-    for (std::size_t i = selected.size(); i-- > 0;) {
-        const auto [from, to] = strips_of(outlines[i]);
-        // Filled from the back, so that strip_begin ends up where each strip starts.
-        for (int s = from; s <= to; ++s)
-            strip_outlines[--strip_begin[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
-    }
-    std::rotate(strip_begin.begin(), strip_begin.begin() + 1, strip_begin.end());
-    strip_begin.back() = static_cast<std::uint32_t>(strip_outlines.size());
+    on_strips.sort(strips, selected.size(), [&](std::size_t i) { return strips_of(outlines[i]); });
+}
+
+void ImageGenerator::Impl::look_at_features(const View& view, double pixel_height) {
+    const ImagePlane& image = view.image;
+    planes.ground.reset();
+    if (scene.ground) planes.ground = horizontal_plane(view, 0.0);
+    planes.decks.clear();
+    for (const CloudDeck& deck : scene.cloud_decks) planes.decks.push_back(horizontal_plane(view, deck.altitude));
+    marked_plane = horizontal_plane(view, 0.0);
+    look_at(scene.ground_polygons, view, polygons);
+    look_at(scene.lights, view, kLeastLightPixels * pixel_height, lights);
+    const int strips = (image.height + kStripRows - 1) / kStripRows;
+    const auto strips_of = [&](double z_from, double z_to) {
+        const auto strip = [&](double z) {
+            const double row = std::floor((image.top - z) / image.row_step);
+            return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
+        };
+        return std::pair{strip(z_to), strip(z_from)};
+    };
+    polygons_on_strips.sort(strips, polygons.size(), [&](std::size_t i) {
+        return strips_of(polygons[i].z_from - image.row_step, polygons[i].z_to + image.row_step);
+    });
+    lights_on_strips.sort(strips, lights.size(), [&](std::size_t i) {
+        const double reach = (lights[i].rows + 1.0) * image.row_step;
+        return strips_of(lights[i].z - reach, lights[i].z + reach);
+    });
 }
 
 void ImageGenerator::Impl::sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& seen_planes,
                                      RowSweep& sweep) const {
     sweep.spans.clear();
-    const auto strip = static_cast<std::size_t>(row.row / kStripRows);
-    for (std::uint32_t i = strip_begin[strip]; i < strip_begin[strip + 1]; ++i) {
-        const Outline& outline = outlines[strip_outlines[i]];
+    const int strip = row.row / kStripRows;
+    for (const std::uint32_t i : on_strips.on(strip)) {
+        const Outline& outline = outlines[i];
         const bool opaque = everything_opaque || !paints.objects[outline.object].translucent;
-        add_object_spans(outline, strip_outlines[i], opaque, row, sweep.spans);
+        add_object_spans(outline, i, opaque, row, sweep.spans);
+    }
+    if (!everything_opaque) {
+        for (const std::uint32_t i : lights_on_strips.on(strip)) add_light_span(lights[i], row, sweep.spans);
+        for (const std::uint32_t i : polygons_on_strips.on(strip))
+            add_polygon_span(polygons[i], marked_plane, row, sweep.spans);
     }
     add_plane_spans(seen_planes, deck_opaque, row, sweep.spans);
     sweep.sweep(row);
@@ -161,6 +216,7 @@ PixelRow pixel_row(const View& view, int r, const Quality& quality) {
     row.columns = view.image.width;
     row.left = view.image.left;
     row.column_step = view.image.column_step;
+    row.row_step = view.image.row_step;
     for (int i = 0; i < sub_lines; ++i) row.z[static_cast<std::size_t>(i)] = view.image.z(r + (i + 0.5) / sub_lines);
     return row;
 }
@@ -190,11 +246,9 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     const auto outlined = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
-    g.planes.ground.reset();
-    if (g.scene.ground) g.planes.ground = horizontal_plane(view, 0.0);
-    g.planes.decks.clear();
-    for (const CloudDeck& deck : g.scene.cloud_decks) g.planes.decks.push_back(horizontal_plane(view, deck.altitude));
-    const FrameShading frame{&view, &g.solids, &g.paints, make_frame_light(g.scene, environment), quality};
+    g.look_at_features(view, asked.image.row_step);
+    const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
+                             quality};
     for (RowWorker& worker : g.row_workers) worker.sweep_time = worker.shade_time = {};
 
     const auto task = [&](int strip, int worker) {

@@ -16,34 +16,64 @@ namespace {
 /// A surface that the ray enters, before it is known what colour it has.
 struct Layer {
     Entry<long double> at;
-    enum class Kind { object, ground, cloud_deck } kind = Kind::object;
+    enum class Kind { object, ground, cloud_deck, light, marking } kind = Kind::object;
     std::uint32_t index = 0;
 };
+
+/// Altitude of a plane without end.
+std::optional<double> altitude_of(const Scene& scene, const Layer& layer) {
+    if (layer.kind == Layer::Kind::ground || layer.kind == Layer::Kind::marking) return 0.0;
+    if (layer.kind == Layer::Kind::cloud_deck) return scene.cloud_decks[layer.index].altitude;
+    return std::nullopt;
+}
+
+/// Whether a is seen in front of b. A light's disc is, whole, if its centre is in front of a plane without end.
+bool in_front_of(const SeenScene& seen, const Layer& a, const Layer& b) {
+    if (a.kind == Layer::Kind::light && altitude_of(seen.scene, b)) {
+        const double plane = *altitude_of(seen.scene, b), eye = seen.view.eye.metres.z;
+        const double light = seen.scene.lights[a.index].position.metres.z;
+        return (eye - plane) * (light - plane) >= 0.0;
+    }
+    if (b.kind == Layer::Kind::light && altitude_of(seen.scene, a)) return !in_front_of(seen, b, a);
+    return in_front(a.at.depth, b.at.depth);
+}
 
 /// All front surfaces along the ray, nearest first, in file order where depths agree, then the ground, then cloud
 /// decks.
 void collect_layers(const SeenScene& seen, const std::vector<std::uint32_t>& objects,
-                    const Vector<long double>& direction, std::vector<Layer>& layers) {
+                    const Vector<long double>& direction, double column, double row, std::vector<Layer>& layers) {
     layers.clear();
-    const auto insert = [&layers](const Layer& layer) {
+    const auto insert = [&](const Layer& layer) {
         auto place = layers.end();
-        while (place != layers.begin() && in_front(layer.at.depth, std::prev(place)->at.depth)) --place;
+        while (place != layers.begin() && in_front_of(seen, layer, *std::prev(place))) --place;
         layers.insert(place, layer);
     };
     for (const std::uint32_t object : objects)
         if (const auto hit = entry(seen.solid<long double>(object), direction))
             insert({*hit, Layer::Kind::object, object});
-    if (seen.scene.ground)
-        if (const auto depth = level_depth(seen.view, 0.0, direction)) insert({{*depth, 0}, Layer::Kind::ground, 0});
+    if (const auto depth = level_depth(seen.view, 0.0, direction)) {
+        const glm::dvec3& eye = seen.view.eye.metres;
+        const glm::dvec2 at(static_cast<double>(eye.x + *depth * direction[0]),
+                            static_cast<double>(eye.y + *depth * direction[1]));
+        if (const auto polygon = polygon_at(seen.scene.ground_polygons, at))
+            insert({{*depth, 0}, Layer::Kind::marking, *polygon});
+        else if (seen.scene.ground)
+            insert({{*depth, 0}, Layer::Kind::ground, 0});
+    }
     for (std::uint32_t deck = 0; deck < seen.scene.cloud_decks.size(); ++deck)
         if (const auto depth = level_depth(seen.view, seen.scene.cloud_decks[deck].altitude, direction))
             insert({{*depth, 0}, Layer::Kind::cloud_deck, deck});
+    for (const SeenScene::Disc& disc : seen.discs)
+        if (std::hypot((column - disc.column) / disc.across, (row - disc.row) / disc.down) < 1.0)
+            insert({{disc.depth, 0}, Layer::Kind::light, disc.light});
 }
 
 const Paint& paint_of(const Scene& scene, const Layer& layer) {
     switch (layer.kind) {
         case Layer::Kind::ground:
             return scene.ground->paint;
+        case Layer::Kind::marking:
+            return scene.ground_polygons[layer.index].paint;
         case Layer::Kind::cloud_deck:
             return scene.cloud_decks[layer.index].paint;
         default:
@@ -68,6 +98,10 @@ SurfacePoint surface_point(const SeenScene& seen, const Layer& layer, const Vect
     return at;
 }
 
+double range_of_light(const SeenScene& seen, std::uint32_t light) {
+    return glm::distance(seen.scene.lights[light].position.metres, seen.view.eye.metres);
+}
+
 /// The colour along one ray, and a number that tells the surfaces that make it up.
 struct Sample {
     Colour colour{0.0};
@@ -80,10 +114,12 @@ Sample colour_along(const SeenScene& seen, const Air& air, const std::vector<Lay
     double transparency = 1.0;
     for (const Layer& layer : layers) {
         const Coat coat =
-            coat_of(paint_of(seen.scene, layer), seen.scene.textures, surface_point(seen, layer, direction), air);
+            layer.kind == Layer::Kind::light
+                ? coat_of(seen.scene.lights[layer.index], range_of_light(seen, layer.index), air)
+                : coat_of(paint_of(seen.scene, layer), seen.scene.textures, surface_point(seen, layer, direction), air);
         sum.colour += transparency * coat.opacity * coat.colour;
         transparency *= 1 - coat.opacity;
-        const auto surface = static_cast<std::uint64_t>(layer.at.surface) * 4 + static_cast<std::uint64_t>(layer.kind);
+        const auto surface = static_cast<std::uint64_t>(layer.at.surface) * 8 + static_cast<std::uint64_t>(layer.kind);
         sum.surfaces = (sum.surfaces ^ (layer.index * 1024 + surface)) * 0x100000001b3;  // FNV-1a
         if (transparency <= 0.0) return sum;
     }
@@ -110,7 +146,7 @@ class Sampler {
 
     [[nodiscard]] Sample at(double column, double row) {
         const auto direction = ray_direction<long double>(seen_.view, column, row);
-        collect_layers(seen_, objects_, direction, layers_);
+        collect_layers(seen_, objects_, direction, column, row, layers_);
         return colour_along(seen_, air_, layers_, direction);
     }
 

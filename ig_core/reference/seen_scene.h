@@ -20,6 +20,13 @@ struct SeenScene {
     std::vector<Solid<double>> triage;       ///< for entry_bounds
     std::vector<BoundingSphere> spheres;
 
+    /// A light's disc: in pixels where it is and how far it reaches, and its depth.
+    struct Disc {
+        std::uint32_t light;
+        double column, row, across, down, depth;
+    };
+    std::vector<Disc> discs;  ///< of the lights that the eye may see
+
     template <class Scalar>
     [[nodiscard]] const Solid<Scalar>& solid(std::uint32_t object) const {
         if constexpr (std::is_same_v<Scalar, Quad>)

@@ -57,6 +57,33 @@ Coat coat_of(const Paint& paint, const std::vector<Texture>& textures, const Sur
     return coat;
 }
 
+Coat coat_of(const LightPoint& light, double range, const Air& air) {
+    const double clearness = air.haze ? std::exp(-2.996 * range / air.haze->visibility) : 1.0;
+    const Colour haze = air.haze ? (1 - clearness) * air.haze->colour : Colour(0.0);
+    double brightness = clearness * light.intensity;
+    double brightest_haze = 0.0, brightest_light = 0.0;
+    for (int c = 0; c < 3; ++c)
+        brightest_haze = std::max(brightest_haze, haze[c]),
+        brightest_light = std::max(brightest_light, light.colour[c]);
+    if (brightest_haze + brightness * brightest_light > 1.0)
+        brightness = brightest_light > 0.0 ? std::max(0.0, (1.0 - brightest_haze) / brightest_light) : 0.0;
+    return {haze + brightness * light.colour, 1.0};
+}
+
+std::optional<std::uint32_t> polygon_at(const std::vector<GroundPolygon>& polygons, const glm::dvec2& point) {
+    for (auto index = static_cast<std::uint32_t>(polygons.size()); index-- > 0;) {
+        const auto& corners = polygons[index].corners;
+        bool left = true, right = true;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i], to = point - corners[i];
+            const double turn = side.x * to.y - side.y * to.x;
+            left = left && turn >= 0, right = right && turn <= 0;
+        }
+        if (left || right) return index;
+    }
+    return std::nullopt;
+}
+
 Colour sky_colour(const Sky& sky, double sine_of_elevation) {
     return glm::mix(sky.horizon, sky.zenith, std::clamp(sine_of_elevation, 0.0, 1.0));
 }

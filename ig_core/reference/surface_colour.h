@@ -39,6 +39,12 @@ struct Coat {
 };
 Coat coat_of(const Paint& paint, const std::vector<Texture>& textures, const SurfacePoint& at, const Air& air);
 
+/// Colour of a light's disc at a slant range (metres).
+Coat coat_of(const LightPoint& light, double range, const Air& air);
+
+/// The last polygon that holds a point of the ground, as its place in the scene.
+std::optional<std::uint32_t> polygon_at(const std::vector<GroundPolygon>& polygons, const glm::dvec2& point);
+
 /// Colour of the sky at a sine of elevation; below the horizon it is the horizon's.
 Colour sky_colour(const Sky& sky, double sine_of_elevation);
 

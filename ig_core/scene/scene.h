@@ -98,6 +98,32 @@ struct Haze {
 struct Ground {
     Paint paint;  ///< opaque: never translucent
 };
+/// A part of the plane Z = 0 with a paint of its own: a runway, its markings. Convex, corners in order either way
+/// round; where polygons overlap the last one in the file is seen. In ids it is ground.
+struct GroundPolygon {
+    std::vector<glm::dvec2> corners;  ///< 3..kMaxCorners
+    Paint paint;                      ///< opaque: never translucent
+};
+inline constexpr std::size_t kMaxCorners = 16;
+
+/// A light that is seen as a disc facing the eye, at the depth of its centre. From afar the disc stays kLeastLightPixels
+/// wide and as bright as it is. Haze dims it like everything else, but what is brighter than white can lose more before
+/// it goes; the picture shows it in its own colour, as bright as the brightest channel allows. It has no id.
+struct LightPoint {
+    ScenePoint position;
+    Colour colour{1.0};
+    double intensity = 1.0;  ///< times white, > 0
+    double diameter = 0.3;   ///< m, > 0
+    /// Where it can be seen from: bearings from the light within half the width of the heading.
+    struct Beam {
+        Degrees heading;
+        Degrees width{360.0};
+    };
+    std::optional<Beam> beam;
+};
+/// Pixels (rows) across.
+inline constexpr double kLeastLightPixels = 1.5;
+
 /// A plane at an altitude above scene Z = 0, normal up.
 struct CloudDeck {
     double altitude = 0.0;
@@ -111,6 +137,8 @@ struct Scene {
     Sky sky;
     std::optional<Haze> haze;
     std::optional<Ground> ground;
+    std::vector<GroundPolygon> ground_polygons;
+    std::vector<LightPoint> lights;
     std::vector<CloudDeck> cloud_decks;
     std::vector<Texture> textures;
     std::vector<Object> objects;

@@ -7,12 +7,12 @@
 
 namespace quadrig {
 
-/// Paints of objects, ground and decks; pointers lead into `textures`.
+/// Paints of objects, markings, ground and decks; pointers lead into `textures`.
 struct FramePaints {
     std::vector<FrameTexture> textures;
     std::vector<std::vector<TextureTerm>>
         terms;  ///< the scene's, by rising frequency: filtering drops them from the end
-    std::vector<FramePaint> objects, decks;
+    std::vector<FramePaint> objects, markings, decks;
     FramePaint ground;
 };
 

@@ -15,7 +15,14 @@ namespace quadrig {
 namespace HWY_NAMESPACE {
 
 void Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
-    in.kind == ShadeInput::Kind::sky ? shade_sky(in, buffer, offset) : shade_surface(in, buffer, offset);
+    switch (in.kind) {
+        case ShadeInput::Kind::sky:
+            return shade_sky(in, buffer, offset);
+        case ShadeInput::Kind::light:
+            return shade_light(in, buffer, offset);
+        default:
+            return shade_surface(in, buffer, offset);
+    }
 }
 
 void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,

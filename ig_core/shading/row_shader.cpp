@@ -70,6 +70,16 @@ void set_quadric(const FrameShading& frame, const RowSpan& span, double x, doubl
     in.gradient = to_float(solid.w);
 }
 
+/// Colour of a light's disc: what the haze lets through of it, no more than the picture can hold, over the haze's own.
+std::array<float, 3> seen_light(const LightPoint& light, const SeenLight& seen, const FrameLight& frame) {
+    const double range = std::sqrt(1.0 + seen.x * seen.x + seen.z * seen.z) / seen.u;
+    const double kept = frame.haze ? std::exp2(-range * frame.extinction) : 1.0;
+    const glm::dvec3 haze = (1.0 - kept) * glm::dvec3(frame.haze_colour[0], frame.haze_colour[1], frame.haze_colour[2]);
+    const auto most = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
+    const double room = std::max(0.0, 1.0 - most(haze)) / std::max(most(light.colour), 1e-9);
+    return to_float(haze + std::min(kept * light.intensity, room) * light.colour);
+}
+
 }  // namespace
 
 ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to) {
@@ -103,6 +113,14 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
             in.paint = &frame.paints->objects[surface.outline->object];
             break;
         }
+        case Surface::Kind::light:
+            in.kind = ShadeInput::Kind::light;
+            in.colour = seen_light((*frame.lights)[surface.index], *surface.light, frame.light);
+            return in;
+        case Surface::Kind::marking:
+            in.normal = {0, 0, 1};
+            in.paint = &frame.paints->markings[surface.index];
+            break;
         case Surface::Kind::ground:
             in.normal = {0, 0, 1};
             in.paint = &frame.paints->ground;

@@ -16,6 +16,7 @@ struct FrameShading {
     const View* view = nullptr;
     const std::vector<Solid>* solids = nullptr;  ///< by object
     const FramePaints* paints = nullptr;
+    const std::vector<LightPoint>* lights = nullptr;  ///< the scene's
     FrameLight light;
     Quality quality;
 };

@@ -251,6 +251,16 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
     }
 }
 
+HWY_INLINE void shade_light(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    const auto fill = [&](std::vector<float>& plane, float value) {
+        std::fill_n(plane.begin() + static_cast<std::ptrdiff_t>(offset), in.count, value);
+    };
+    fill(buffer.red, in.colour[0]);
+    fill(buffer.green, in.colour[1]);
+    fill(buffer.blue, in.colour[2]);
+    fill(buffer.opacity, 1.0F);
+}
+
 HWY_INLINE void shade_sky(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;

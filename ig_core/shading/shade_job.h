@@ -52,12 +52,13 @@ struct ShadeJob {
 
 /// A job's numbers. Columns are counted from the job's first one, at pixel centres.
 struct ShadeInput {
-    enum class Kind : std::uint8_t { sky, plane, quadric };
+    enum class Kind : std::uint8_t { sky, light, plane, quadric };
     Kind kind = Kind::sky;
     bool smooth_stretches = true;  ///< interpolate what changes slowly
     bool pairs = false;            ///< one sample for two columns
     int count = 0;
     float least_column = 0, most_column = 0;  ///< sample points stay within the surface
+    std::array<float, 3> colour{};            ///< lights: as it is seen, haze included
     // Ray direction in scene axes and its parts: d = ray + column * ray_step; along_row the step to the next row.
     std::array<float, 3> ray{}, ray_step{}, along_row{};
     std::array<float, 3> normal{};        ///< planes: unit, outward

@@ -143,6 +143,12 @@ std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b
     return settled(narrow_least, narrow_most);
 }
 
+/// Planes without end pass in front of part of a light's disc wherever it stands close to them: they are compared where
+/// its centre is, so that a light is seen whole or not at all.
+bool light_in_front_of_plane(const SeenLight& light, const PlaneDepth& plane) {
+    return light.u >= plane.at + plane.along_x * light.x + plane.along_z * light.z;
+}
+
 void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, double to) {
     if (piece.splits == 0) {
         piece = whole;
@@ -158,6 +164,11 @@ void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, do
 
 Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, CrossingPieces& pieces) {
     const Surface &sa = a.surface, &sb = b.surface;
+    const auto is_plane = [](const Surface& s) { return s.outline == nullptr && s.light == nullptr; };
+    if (sa.light != nullptr && is_plane(sb))
+        return light_in_front_of_plane(*sa.light, sb.plane) ? Priority::front : Priority::behind;
+    if (sb.light != nullptr && is_plane(sa))
+        return light_in_front_of_plane(*sb.light, sa.plane) ? Priority::behind : Priority::front;
     if (sa.far_u > (1.0 + kSameDepth) * sb.near_u) return Priority::front;
     if (sb.far_u > (1.0 + kSameDepth) * sa.near_u) return Priority::behind;
     // Surfaces of one object lie side by side.

@@ -8,12 +8,11 @@ namespace quadrig {
 
 DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
     : plane_(surface.kind != Surface::Kind::quadric) {
-    if (surface.kind == Surface::Kind::ground || surface.kind == Surface::Kind::deck) {
+    if (surface.kind != Surface::Kind::quadric && surface.kind != Surface::Kind::face) {
         u0_ = surface.plane.at + surface.plane.along_x * row.left + surface.plane.along_z * z;
         u1_ = surface.plane.along_x * row.column_step;
         return;
     }
-    if (surface.kind == Surface::Kind::sky) return;
     const EyeSolid& e = surface.outline->solid;
     const double zeta = z - e.z0;
     xi0_ = row.left - e.x0;

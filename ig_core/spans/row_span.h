@@ -19,16 +19,25 @@ struct PlaneDepth {
     double at = 0, along_x = 0, along_z = 0;
 };
 
+/// A light point on the image: a disc, all of it at one depth.
+struct SeenLight {
+    std::uint32_t light = 0;       ///< index in the scene
+    double x = 0, z = 0;           ///< centre, image plane
+    double columns = 0, rows = 0;  ///< radius in pixels, across and down
+    double u = 0;                  ///< 1/k
+};
+
 /// What a span shows.
 struct Surface {
-    enum class Kind : std::uint8_t { quadric, face, ground, deck, sky };
+    enum class Kind : std::uint8_t { quadric, face, light, marking, ground, deck, sky };
     Kind kind = Kind::sky;
     bool opaque = true;
-    int surface = 0;                   ///< surface id in the object
-    std::uint32_t index = 0;           ///< of the outline in the frame's list, or of the cloud deck
-    std::uint32_t priority = 0;        ///< wins a tie in depth if smaller: file order, then ground, decks, sky
+    int surface = 0;             ///< surface id in the object
+    std::uint32_t index = 0;     ///< of the outline in the frame's list, of the ground polygon or the cloud deck
+    std::uint32_t priority = 0;  ///< wins a tie in depth if smaller: file order, then markings, ground, decks, sky
     const Outline* outline = nullptr;  ///< for quadrics and faces
-    PlaneDepth plane;                  ///< for ground and decks
+    const SeenLight* light = nullptr;  ///< for lights
+    PlaneDepth plane;                  ///< for markings, ground, decks and (constant) lights
     double near_u = 1.0 / kNearDepth;  ///< bounds of 1/k over all of the span
     double far_u = 0.0;
 };
@@ -49,6 +58,7 @@ struct PixelRow {
     DistanceRule distance = DistanceRule::exact;
     int columns = 0;
     double left = 0, column_step = 1;          ///< x = left + column * column_step
+    double row_step = 1;                       ///< image-plane height of the row
     std::array<double, kMaxSubScanLines> z{};  ///< image-plane z of each sub-scan line
     [[nodiscard]] double x(double column) const { return left + column * column_step; }
     [[nodiscard]] double column(double at_x) const { return (at_x - left) / column_step; }

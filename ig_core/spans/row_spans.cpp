@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace quadrig {
 namespace {
 
+/// Of surfaces at one depth the one with the smaller number is seen; objects have their place in the file.
+constexpr std::uint32_t kMarkingPriority = 0xFFFEFFFFu;  // less their places: the last in the file is seen
 constexpr std::uint32_t kGroundPriority = 0xFFFF0000u, kDeckPriority = 0xFFFF0001u, kSkyPriority = 0xFFFFFFFFu;
 
 void clear_ends(RowSpan& span) {
@@ -52,6 +55,12 @@ void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>
         bound_depth(row, span);
     else
         spans.pop_back();
+}
+
+/// Integral of 2 sqrt(1 - t^2) from -1 to t: the part of a unit disc below t.
+double disc_below(double t) {
+    const double s = std::clamp(t, -1.0, 1.0);
+    return s * std::sqrt(1.0 - s * s) + std::asin(s) + 0.5 * std::numbers::pi;
 }
 
 }  // namespace
@@ -180,6 +189,61 @@ void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> 
     clear_ends(sky);
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) sky.to[i] = row.columns;
     fit_columns(row, sky);
+}
+
+void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, const PixelRow& row,
+                      std::vector<RowSpan>& spans) {
+    RowSpan& span = spans.emplace_back();
+    span.surface.kind = Surface::Kind::marking;
+    span.surface.index = polygon.polygon;
+    span.surface.priority = kMarkingPriority - polygon.polygon;
+    span.surface.plane = ground;
+    span.surface.near_u = std::numeric_limits<double>::infinity();
+    clear_ends(span);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
+        double from = 0.0, to = row.columns;
+        const auto keep = [&](double at, double along_x) {
+            const double end = row.column(-at / along_x);
+            if (along_x > 0.0)
+                from = std::max(from, end);
+            else if (along_x < 0.0)
+                to = std::min(to, end);
+            else if (!(at > 0.0))
+                to = from;
+        };
+        keep(ground.at + ground.along_z * row.z[i], ground.along_x);
+        for (std::size_t e = 0; e < polygon.edge_count; ++e)
+            keep(polygon.edges[e].y + polygon.edges[e].z * row.z[i], polygon.edges[e].x);
+        span.from[i] = from, span.to[i] = std::max(from, to);
+    }
+    if (fit_columns(row, span))
+        bound_depth(row, span);
+    else
+        spans.pop_back();
+}
+
+void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans) {
+    RowSpan& span = spans.emplace_back();
+    span.surface.kind = Surface::Kind::light;
+    span.surface.index = light.light;
+    span.surface.light = &light;
+    span.surface.plane = {light.u, 0.0, 0.0};
+    span.surface.near_u = span.surface.far_u = light.u;
+    clear_ends(span);
+    const double middle = row.column(light.x);
+    const double line = 1.0 / row.sub_lines;  // rows
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
+        const double down = (light.z - row.z[i]) / row.row_step;  // rows from the disc's centre to the line
+        double half;
+        if (row.point_samples) {
+            half = std::sqrt(std::max(0.0, 1.0 - down * down / (light.rows * light.rows)));
+        } else {
+            const double top = (down - 0.5 * line) / light.rows, bottom = (down + 0.5 * line) / light.rows;
+            half = 0.5 * (disc_below(bottom) - disc_below(top)) / (bottom - top);
+        }
+        span.from[i] = middle - half * light.columns, span.to[i] = middle + half * light.columns;
+    }
+    if (!fit_columns(row, span)) spans.pop_back();
 }
 
 }  // namespace quadrig

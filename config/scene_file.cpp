@@ -1,6 +1,7 @@
 #include "config/scene_file.h"
 
 #include "config/cluster_section.h"
+#include "config/model_section.h"
 #include "config/object_section.h"
 
 namespace quadrig::config {
@@ -40,8 +41,9 @@ Haze read_haze(const TomlSection& section, const Sky& sky) {
 
 Scene read_scene(const std::filesystem::path& file) {
     const toml::table document = parse_toml_file(file);
-    const TomlSection root(file, document, "",
-                           {"scene", "sun", "sky", "haze", "ground", "cloud_deck", "texture", "cluster", "object"});
+    const TomlSection root(
+        file, document, "",
+        {"scene", "sun", "sky", "haze", "ground", "cloud_deck", "texture", "cluster", "model", "object"});
     Scene scene;
     if (const auto header = root.optional_table("scene", {"name", "origin"})) {
         scene.name = header->optional_text("name").value_or("");
@@ -74,6 +76,7 @@ Scene read_scene(const std::filesystem::path& file) {
             take_name(section, *name, object_names);
         }
     }
+    add_models(root, object_names, scene);
     add_clusters(root, textures, object_names, scene);
     scene.textures = textures.take();
     return scene;

@@ -69,7 +69,7 @@ Scene read_scene(const std::filesystem::path& file) {
     }
     Names object_names;
     for (const auto& section : root.tables("object", {"name", "ellipsoid", "hill", "quadric", "planes", "colour",
-                                                      "texture", "texture_weight", "translucence"})) {
+                                                      "texture", "texture_weight", "translucence", "motion"})) {
         scene.objects.push_back(read_object(section, textures));
         if (const auto name = section.optional_text("name")) {
             scene.objects.back().name = *name;

@@ -25,5 +25,6 @@ void add_outline(CLI::App& program, Action& action);
 void add_accuracy(CLI::App& program, Action& action);
 void add_generate(CLI::App& program, Action& action);
 void add_patterns(CLI::App& program, Action& action);
+void add_gallery(CLI::App& program, Action& action);
 
 }  // namespace quadrig::appliance

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     add_accuracy(program, action);
     add_generate(program, action);
     add_patterns(program, action);
+    add_gallery(program, action);
     try {
         program.parse(argc, argv);
         action();

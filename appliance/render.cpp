@@ -13,6 +13,7 @@
 #include "display/png_file.h"
 #include "ig_core/image_generator.h"
 #include "ig_core/reference/reference_renderer.h"
+#include "ig_core/scene/motion.h"
 
 namespace quadrig::appliance {
 namespace {
@@ -50,7 +51,7 @@ void write_ground_truth(const RenderOptions& options, const GroundTruth& truth) 
 void render(const RenderOptions& options) {
     if (options.picture.empty() && !options.wants_ground_truth())
         throw WrongUse("nothing to make; ask for -o picture.png, --object-ids, --surface-ids or --depth");
-    Scene scene = config::read_scene(options.scene);
+    Scene scene = scene_at(config::read_scene(options.scene), options.seconds);
     const View view = view_of(options);
     Environment environment;
     environment.seconds = options.seconds;
@@ -97,8 +98,8 @@ void add_render(CLI::App& program, Action& action) {
     add_option(command, "--fov", options->fov, read_field_of_view,
                "Horizontal field of view, degrees above 0 and below 180 (required)", "DEG")
         ->required();
-    add_option(command, "--time", options->seconds, read_number, "Scene time, which textures drift by (default 0)",
-               "S");
+    add_option(command, "--time", options->seconds, read_number,
+               "Scene time, by which textures drift and objects move (default 0)", "S");
     command.add_option("-o,--output", options->picture, "Write the picture")->option_text("PICTURE.png");
     command.add_option("--object-ids", options->object_ids, "Write which object is seen")->option_text("IDS.npy");
     command.add_option("--surface-ids", options->surface_ids, "Write which of its surfaces is seen")

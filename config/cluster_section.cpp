@@ -93,7 +93,7 @@ Template read_template(const TomlSection& section, Textures& textures, const Ear
     result.weight = section.number_or("weight", kPositive, result.weight);
     if (const auto name = section.optional_text("cluster")) {
         for (const std::string_view other :
-             {"ellipsoid", "hill", "planes", "colour", "texture", "texture_weight", "translucence"})
+             {"ellipsoid", "hill", "planes", "colour", "texture", "texture_weight", "translucence", "motion"})
             if (section.has(other)) section.refuse(other, "a shape or a cluster", "both");
         const auto found = earlier.indices.find(*name);
         if (found == earlier.indices.end())
@@ -145,7 +145,7 @@ Cluster read_cluster(const TomlSection& section, Textures& textures, Earlier& ea
     }
     int levels = 1;
     for (const auto& each : section.tables("template", {"weight", "cluster", "ellipsoid", "hill", "planes", "colour",
-                                                        "texture", "texture_weight", "translucence"}))
+                                                        "texture", "texture_weight", "translucence", "motion"}))
         cluster.templates.push_back(read_template(each, textures, earlier, levels));
     if (cluster.templates.empty()) section.refuse("expected at least one [[cluster.template]], found none");
     refuse_contradictions(section, cluster);

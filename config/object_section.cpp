@@ -8,6 +8,9 @@
 namespace quadrig::config {
 namespace {
 
+constexpr NumberRule kSpeed{"m/s in -1e6..1e6", [](double x) { return x >= -1e6 && x <= 1e6; }};
+constexpr NumberRule kLean{"degrees in 0..90", [](double x) { return x >= 0.0 && x <= 90.0; }};
+constexpr NumberRule kPeriod{"seconds in 1e-3..1e9", [](double x) { return x >= 1e-3 && x <= 1e9; }};
 constexpr NumberRule kThreshold{"a threshold in -10..10", [](double x) { return x >= -10.0 && x <= 10.0; }};
 
 Attitude attitude_from(const glm::dvec3& degrees) { return {{degrees.x}, {degrees.y}, {degrees.z}}; }
@@ -86,11 +89,33 @@ Paint read_paint(const TomlSection& section, Textures& textures) {
     return paint;
 }
 
+Motion read_motion(const TomlSection& section, const Object& object) {
+    Motion motion;
+    if (section.has("velocity")) motion.velocity = section.triple("velocity", kSpeed);
+    if (section.has("within")) {
+        if (std::holds_alternative<GeneralQuadric>(object.shape))
+            section.refuse("within", "an ellipsoid or a hill to keep there", "a quadric");
+        const auto sides = section.numbers("within", kCoordinate, 4, 4);
+        if (sides[0] >= sides[2] || sides[1] >= sides[3])
+            section.refuse("within", "[west, south, east, north]", "west not below east or south not below north");
+        motion.within = {sides[0], sides[1], sides[2], sides[3]};
+    }
+    if (const auto sway = section.optional_table("sway", {"angle", "period", "wavelength"})) {
+        if (!std::holds_alternative<Ellipsoid>(object.shape)) section.refuse("sway", "an ellipsoid to sway", "another");
+        motion.sway = Sway{{sway->number("angle", kLean)},
+                           sway->number_or("period", kPeriod, Sway{}.period),
+                           sway->number_or("wavelength", kLength, Sway{}.wavelength)};
+    }
+    return motion;
+}
+
 Object read_object(const TomlSection& section, Textures& textures) {
     Object object;
     object.shape = read_shape(section);
     object.planes = read_planes(section);
     object.paint = read_paint(section, textures);
+    if (const auto motion = section.optional_table("motion", {"velocity", "within", "sway"}))
+        object.motion = read_motion(*motion, object);
     if (const auto* quadric = std::get_if<GeneralQuadric>(&object.shape)) {
         if (const auto reason = why_not_convex(*quadric, object.planes)) {
             section.refuse("quadric", "a solid Q <= 0 that is one convex piece within its planes", "that " + *reason);

@@ -2,6 +2,7 @@
 
 #include "config/cluster_section.h"
 #include "config/ground_section.h"
+#include "config/model_section.h"
 #include "config/object_section.h"
 
 namespace quadrig::config {
@@ -43,7 +44,7 @@ Scene read_scene(const std::filesystem::path& file) {
     const toml::table document = parse_toml_file(file);
     const TomlSection root(file, document, "",
                            {"scene", "sun", "sky", "haze", "ground", "runway", "ground_polygon", "light", "cloud_deck",
-                            "texture", "cluster", "object"});
+                            "texture", "cluster", "model", "object"});
     Scene scene;
     if (const auto header = root.optional_table("scene", {"name", "origin"})) {
         scene.name = header->optional_text("name").value_or("");
@@ -70,13 +71,14 @@ Scene read_scene(const std::filesystem::path& file) {
     add_ground_features(root, textures, scene);
     Names object_names;
     for (const auto& section : root.tables("object", {"name", "ellipsoid", "hill", "quadric", "planes", "colour",
-                                                      "texture", "texture_weight", "translucence"})) {
+                                                      "texture", "texture_weight", "translucence", "motion"})) {
         scene.objects.push_back(read_object(section, textures));
         if (const auto name = section.optional_text("name")) {
             scene.objects.back().name = *name;
             take_name(section, *name, object_names);
         }
     }
+    add_models(root, object_names, scene);
     add_clusters(root, textures, object_names, scene);
     scene.textures = textures.take();
     return scene;

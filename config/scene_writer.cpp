@@ -93,6 +93,17 @@ struct ShapeWriter {
     void operator()(const GeneralQuadric& q) const { out << "quadric = " << Numbers(q.coefficients) << '\n'; }
 };
 
+void write_motion(std::ostream& out, const Motion& motion) {
+    const glm::dvec3& v = motion.velocity;
+    out << "motion = { velocity = " << Numbers(std::array{v.x, v.y, v.z});
+    if (motion.within) out << ", within = " << Numbers(*motion.within);
+    if (motion.sway) {
+        out << ", sway = { angle = " << Exact{motion.sway->angle.value} << ", period = " << Exact{motion.sway->period}
+            << ", wavelength = " << Exact{motion.sway->wavelength} << " }";
+    }
+    out << " }\n";
+}
+
 void write_object(std::ostream& out, const Object& object, const Scene& scene) {
     out << "[[object]]\n";
     if (!object.name.empty()) out << "name = " << Quoted{object.name} << '\n';
@@ -105,6 +116,7 @@ void write_object(std::ostream& out, const Object& object, const Scene& scene) {
         out << "]\n";
     }
     write_paint(out, object.paint, scene);
+    if (object.motion) write_motion(out, *object.motion);
 }
 
 void write_light(std::ostream& out, const LightPoint& light) {

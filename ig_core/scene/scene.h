@@ -71,12 +71,26 @@ struct BoundingPlane {
     std::array<double, 4> coefficients{};
 };
 
+/// Leaning to and fro about the lowest point, east and west, as a wind from the west does.
+struct Sway {
+    Degrees angle;              ///< either way
+    double period = 4.0;        ///< s, > 0
+    double wavelength = 200.0;  ///< m between gusts, > 0
+};
+/// How an object moves with scene time; without `within` it is where the file puts it at time 0.
+struct Motion {
+    glm::dvec3 velocity{0.0};                     ///< m/s, east, north, up
+    std::optional<std::array<double, 4>> within;  ///< west, south, east, north: what is outside comes in opposite
+    std::optional<Sway> sway;                     ///< not for hills
+};
+
 /// A convex solid {Q <= 0 and every P_j > 0}. Surface 0 is the quadric, surface j its j-th plane (1-based).
 struct Object {
     std::string name;
     Shape shape;
     std::vector<BoundingPlane> planes;
     Paint paint;
+    std::optional<Motion> motion{};
 };
 inline constexpr int kMaxPlanes = 16;
 

@@ -53,3 +53,43 @@ TEST_CASE("Patterns names them all and draws a row of nine for each") {
             CHECK(lightest - darkest > 40);
         }
 }
+
+TEST_CASE("Gallery draws every scene that travels along, and a page of them") {
+    const auto directory = scratch_directory() / "gallery";
+    const Outcome outcome =
+        quadrig_program({"gallery", "-o", directory.string(), "--size", "160x90", "--quality", "draft"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    int pictures = 0;
+    for (const char* figure :
+         {"05_sphere_with_six_planes", "06_texture_on_the_ground", "07_cloud_layer", "08a_mountains_without_texture",
+          "08b_mountains_with_texture", "09_trees_clouds_and_hills", "10_hills_and_trees", "11_hills_trees_and_clouds",
+          "12_x29_above_clouds", "13_coast_at_dawn", "14_mountains_above_the_clouds"}) {
+        INFO(figure);
+        const display::Picture picture = display::read_png(directory / (std::string(figure) + ".png"));
+        ++pictures;
+        CHECK(picture.width == 160);
+        CHECK(picture.height == 90);
+        int darkest = 255, lightest = 0;
+        for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
+            darkest = std::min<int>(darkest, picture.pixels[i]);
+            lightest = std::max<int>(lightest, picture.pixels[i]);
+        }
+        CHECK(lightest - darkest > 60);
+    }
+    CHECK(std::distance(std::filesystem::directory_iterator(directory), {}) == pictures + 1);
+    const display::Picture sheet = display::read_png(directory / "contact_sheet.png");
+    CHECK(sheet.width == 3 * 164 + 4);
+    CHECK(sheet.height == 4 * 94 + 4);
+}
+
+TEST_CASE("Gallery wants a camera for every scene") {
+    const auto scenes = scratch_directory();
+    std::filesystem::copy(scratch_file("scene.toml", small_scene()), scenes / "scene.toml");
+    const Outcome without = quadrig_program({"gallery", "--scenes", scenes.string(), "-o", (scenes / "out").string()});
+    CHECK(without.status == 1);
+    CHECK_THAT(without.err, Contains("scene.json"));
+    const Outcome empty = quadrig_program({"gallery", "--scenes", scratch_directory().string(), "-o", scenes.string()});
+    CHECK(empty.status == 1);
+    CHECK_THAT(empty.err, Contains("there are no scenes"));
+}

@@ -192,6 +192,43 @@ TEST_CASE("the expanded scene reads back as the same scene, without clusters") {
     CHECK(written(config::read_scene(TemporaryFile(text).path())) == text);
 }
 
+TEST_CASE("motion is read for objects and for all of a cluster, written back, and refused where it makes no sense") {
+    const std::string moving =
+        "motion = { velocity = [4, 1, 0], within = [-9, -8, 9, 8], sway = { angle = 3, period = 5 } }\n";
+    const std::string egg = "ellipsoid = { centre = [0, 0, 0], semi_axes = [1, 1, 1] }\n";
+    const std::string text = "[[object]]\n" + egg + moving +
+                             "[[cluster]]\nname = \"c\"\nregion = { rectangle = [0, 0, 9, 9] }\nspacing = 3\n"
+                             "[[cluster.template]]\n" +
+                             egg + moving;
+    const Scene scene = config::read_scene(TemporaryFile(text).path());
+    REQUIRE(scene.objects.size() > 5);
+    for (const Object& object : scene.objects) {
+        REQUIRE(object.motion);
+        CHECK(object.motion->velocity == glm::dvec3(4, 1, 0));
+        CHECK(object.motion->within == std::array<double, 4>{-9, -8, 9, 8});
+        REQUIRE(object.motion->sway);
+        CHECK(object.motion->sway->angle.value == 3);
+        CHECK(object.motion->sway->wavelength == 200);
+    }
+    const std::string expanded = written(scene);
+    CHECK(written(config::read_scene(TemporaryFile(expanded).path())) == expanded);
+    const auto refused = [&](const std::string& shape, const std::string& motion) {
+        try {
+            config::read_scene(TemporaryFile("[[object]]\n" + shape + motion).path());
+        } catch (const config::FileError& error) {
+            return error.key();
+        }
+        return std::string("accepted");
+    };
+    const std::string hill = "hill = { apex = [0, 0, 9], radius_of_curvature = 9, slope = 1 }\n";
+    CHECK(refused(hill, "motion = { sway = { angle = 3 } }\n") == "object[0].motion.sway");
+    CHECK(refused(egg, "motion = { sway = { angle = 91 } }\n") == "object[0].motion.sway.angle");
+    CHECK(refused(egg, "motion = { within = [1, 0, 1, 5] }\n") == "object[0].motion.within");
+    CHECK(refused(egg, "motion = { speed = 3 }\n") == "object[0].motion.speed");
+    CHECK(refused("quadric = [1, 1, 1, 0, 0, 0, 0, 0, 0, -1]\n", "motion = { within = [0, 0, 1, 5] }\n") ==
+          "object[0].motion.within");
+}
+
 TEST_CASE("a scene of clusters is the same world for ever: its expansion has the hash it had when it was made") {
     // A change here changes every world that somebody made with clusters. It must not happen by accident.
     CHECK(hash_of(written(config::read_scene(TemporaryFile(kClusters).path()))) == 0x621460723A80E718u);

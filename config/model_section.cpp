@@ -1,0 +1,69 @@
+#include "config/model_section.h"
+
+#include <map>
+#include <utility>
+
+#include "config/config_directory.h"
+#include "config/object_section.h"
+#include "ig_core/scene/placement.h"
+
+namespace quadrig::config {
+namespace {
+
+/// Names become parts of paths.
+bool is_plain(const std::string& name) {
+    return name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
+}
+
+ScenePose read_pose(const TomlSection& section) {
+    ScenePose pose;
+    pose.position = {section.triple("position", kCoordinate)};
+    if (section.has("attitude")) {
+        const glm::dvec3 degrees = section.triple("attitude", kTurn);
+        pose.eye_from_scene = eye_from_scene_rotation({{degrees.x}, {degrees.y}, {degrees.z}});
+    }
+    return pose;
+}
+
+}  // namespace
+
+std::vector<Object> read_model(const std::filesystem::path& file) {
+    const toml::table document = parse_toml_file(file);
+    const TomlSection root(file, document, "", {"object"});
+    std::vector<Object> objects;
+    Textures none;
+    Names names;
+    for (const auto& section : root.tables("object", {"name", "ellipsoid", "quadric", "planes", "colour"})) {
+        objects.push_back(read_object(section, none));
+        objects.back().name = section.text("name");
+        take_name(section, objects.back().name, names);
+        if (objects.size() > kMostModelObjects) section.refuse("expected at most 1000 objects, found more");
+    }
+    return objects;
+}
+
+void add_models(const TomlSection& document, Names& names, Scene& scene) {
+    std::map<std::string, std::vector<Object>> models;
+    std::size_t count = 0;
+    for (const auto& section : document.tables("model", {"name", "model", "position", "attitude"})) {
+        const std::string model = section.text("model"), name = section.optional_text("name").value_or(model);
+        const std::filesystem::path file = config_directory() / "models" / (model + ".toml");
+        if (!is_plain(model) || !std::filesystem::exists(file))
+            section.refuse("model", "the name of a file in " + file.parent_path().string(), "\"" + model + "\"");
+        const auto [known, is_new] = models.try_emplace(model);
+        if (is_new) known->second = read_model(file);
+        const ScenePose pose = read_pose(section);
+        count += known->second.size();
+        if (count > kMostPlacedObjects) section.refuse("expected at most 100000 objects of all models, found more");
+        for (const Object& object : known->second) {
+            Object& part = scene.objects.emplace_back(*placed(object, pose));
+            part.name = name + "." + object.name;
+            const auto [first, free] = names.try_emplace(part.name, section.key());
+            if (!free)
+                section.refuse("expected a name of its own, found an object \"" + part.name + "\", which " +
+                               first->second + " has");
+        }
+    }
+}
+
+}  // namespace quadrig::config

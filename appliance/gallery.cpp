@@ -22,7 +22,7 @@ constexpr int kSheetColumns = 3, kMostThumbnailWidth = 400;
 struct GalleryOptions {
     std::filesystem::path scenes = config::config_directory() / "scenes" / "gallery", output;
     config::ImageSize size{1280, 720};
-    config::QualityPreset quality = config::kQualityPresets.back();
+    config::QualityStep quality = config::shipped_ladder().back();
     int threads = default_threads();
 };
 
@@ -78,8 +78,8 @@ void add_gallery(CLI::App& program, Action& action) {
         ->option_text("DIRECTORY");
     command.add_option("--scenes", options->scenes, "Where the scenes and their cameras are")->option_text("DIRECTORY");
     add_option(command, "--size", options->size, read_size, "Pixels of each picture (default: 1280x720)", "WxH");
-    add_option(command, "--quality", options->quality, read_quality, "draft, default, fine or best (default: best)",
-               "NAME");
+    add_option(command, "--quality", options->quality, read_quality,
+               config::step_names(config::shipped_ladder()) + " (default: best)", "NAME");
     command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))
         ->option_text("N");

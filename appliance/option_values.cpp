@@ -76,6 +76,13 @@ double read_number(const std::string& text) {
     return number_in(text, "a number", [](double) { return true; });
 }
 
+config::QualityStep read_quality(const std::string& text) {
+    const config::QualityLadder& ladder = config::shipped_ladder();
+    const auto step = config::step_named(ladder, text);
+    if (!step) refuse(text, config::step_names(ladder));
+    return ladder[*step];
+}
+
 host::LinkUrl read_link(const std::string& text) {
     try {
         return host::parse_link_url(text);

@@ -25,6 +25,8 @@ scheduler::FrameRate read_rate(const std::string& text);
 scheduler::Time read_duration(const std::string& text);
 /// A finite number.
 double read_number(const std::string& text);
+/// A step of the shipped quality ladder.
+config::QualityStep read_quality(const std::string& text);
 host::LinkUrl read_link(const std::string& text);
 std::string read_sink(const std::string& text);
 

@@ -24,7 +24,7 @@ struct RenderOptions {
     config::ImageSize size;
     Degrees fov{60.0};
     double seconds = 0.0;
-    std::string quality = "default";
+    config::QualityStep quality = config::shipped_ladder()[config::default_step(config::shipped_ladder())];
     int threads = default_threads();
     bool reference = false;
     int samples = 4;
@@ -56,8 +56,6 @@ void render(const RenderOptions& options) {
     Environment environment;
     environment.seconds = options.seconds;
     display::Picture picture(options.size.width, options.size.height);
-    const config::QualityLadder& ladder = config::shipped_ladder();
-    const Quality quality = ladder[*config::step_named(ladder, options.quality)].quality;
     if (options.reference) {
         if (options.wants_ground_truth()) write_ground_truth(options, reference::ground_truth(scene, view));
         if (options.picture.empty()) return;
@@ -66,7 +64,7 @@ void render(const RenderOptions& options) {
         ImageGenerator generator(std::move(scene), options.threads);
         if (options.wants_ground_truth()) write_ground_truth(options, generator.ground_truth(view));
         if (options.picture.empty()) return;
-        generator.render(view, environment, quality, picture.image());
+        generator.render(view, environment, options.quality.quality, picture.image());
     }
     display::write_png(options.picture, picture.image());
 }
@@ -111,11 +109,8 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::Range(1, 64))
         ->needs(reference)
         ->option_text("N");
-    std::vector<std::string> qualities;
-    for (const config::QualityStep& step : config::shipped_ladder()) qualities.push_back(step.name);
-    command.add_option("--quality", options->quality, "A step of the quality ladder (default: default)")
-        ->check(CLI::IsMember(qualities))
-        ->option_text("NAME")
+    add_option(command, "--quality", options->quality, read_quality,
+               config::step_names(config::shipped_ladder()) + " (default: default)", "NAME")
         ->excludes(reference);
     command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))

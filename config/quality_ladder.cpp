@@ -136,10 +136,14 @@ std::optional<std::size_t> step_named(const QualityLadder& ladder, std::string_v
 
 std::size_t default_step(const QualityLadder& ladder) { return *step_named(ladder, "default"); }
 
-std::string quality_names(const QualityLadder& ladder) {
+std::string step_names(const QualityLadder& ladder) {
     std::string names;
     for (const QualityStep& step : ladder) names += (names.empty() ? "" : ", ") + step.name;
-    return names + " or " + std::string(kAutomaticQuality);
+    return names;
+}
+
+std::string quality_names(const QualityLadder& ladder) {
+    return step_names(ladder) + " or " + std::string(kAutomaticQuality);
 }
 
 std::string words_for(const Quality& q) {

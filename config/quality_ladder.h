@@ -38,7 +38,8 @@ std::optional<std::size_t> step_named(const QualityLadder& ladder, std::string_v
 std::size_t default_step(const QualityLadder& ladder);
 /// Means that the frame loop chooses a step by the time it has.
 inline constexpr std::string_view kAutomaticQuality = "auto";
-/// "draft, default, best or auto": what a quality may be called, for help texts and errors.
+/// "draft, default, best", and with "or auto": what a quality may be called, for help texts and errors.
+std::string step_names(const QualityLadder& ladder);
 std::string quality_names(const QualityLadder& ladder);
 
 /// "2 sub-scan lines", "no antialiasing, parabola sine": what makes up a quality, in a few words.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"
@@ -74,10 +75,18 @@ struct ImageGenerator::Impl {
     Impl(Scene s, int threads) : scene(std::move(s)), workers(threads), row_workers(static_cast<std::size_t>(threads)) {
         solids.reserve(scene.objects.size());
         for (const Object& object : scene.objects) solids.push_back(make_solid(object));
+        for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+            if (scene.objects[i].motion) moving.push_back({i, solids[i]});
+        for (const Model& model : scene.models) {
+            std::vector<Solid>& at_rest = models.emplace_back();
+            for (const Object& object : model.objects) at_rest.push_back(make_solid(object));
+        }
         paints = make_frame_paints(scene);
         for (const FramePaint& paint : paints.decks) deck_opaque.push_back(!paint.translucent);
-        may_be_seen.resize(scene.objects.size());
     }
+
+    /// Puts what moves where it is: objects by scene time, models by the host.
+    void move_objects(const Environment& environment);
 
     void select(const View& view);
     void make_outlines(const View& view, const Quality& quality);
@@ -90,7 +99,14 @@ struct ImageGenerator::Impl {
     Scene scene;
     Workers workers;
     std::vector<RowWorker> row_workers;
-    std::vector<Solid> solids;
+    std::vector<Solid> solids;  // of the scene's objects, then of the models that the host has placed; only ever grows
+    std::size_t solid_count = 0;
+    struct Moving {
+        std::uint32_t object;
+        Solid at_rest;
+    };
+    std::vector<Moving> moving;
+    std::vector<std::vector<Solid>> models;  // at rest, in their own axes
     FramePaints paints;
     std::vector<std::uint8_t> deck_opaque;
     PlaneSurfaces planes;
@@ -103,9 +119,24 @@ struct ImageGenerator::Impl {
     std::vector<SeenLight> lights;
 };
 
+void ImageGenerator::Impl::move_objects(const Environment& environment) {
+    for (const Moving& object : moving)
+        move(object.at_rest, pose_at(scene.objects[object.object], environment.seconds), solids[object.object]);
+    solid_count = scene.objects.size();
+    for (const PlacedModel& body : environment.bodies) {
+        if (body.model >= models.size()) continue;
+        for (std::size_t i = 0; i < models[body.model].size(); ++i, ++solid_count) {
+            if (solids.size() <= solid_count) solids.emplace_back(), paints.objects.emplace_back();
+            move(models[body.model][i], body.pose, solids[solid_count]);
+            paints.objects[solid_count] = paints.models[body.model][i];
+        }
+    }
+}
+
 void ImageGenerator::Impl::select(const View& view) {
     const ImagePlane& image = view.image;
-    const auto count = static_cast<int>(solids.size());
+    const auto count = static_cast<int>(solid_count);
+    may_be_seen.resize(solid_count);
     const auto task = [&](int block, int) {
         const int end = std::min(count, (block + 1) * kSelectBlock);
         for (int i = block * kSelectBlock; i < end; ++i)
@@ -240,6 +271,7 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
         quality.smallest_feature *= 2.0;
     }
     const auto start = Clock::now();
+    g.move_objects(environment);
     g.select(view);
     const auto selected = Clock::now();
     g.make_outlines(view, quality);
@@ -283,10 +315,11 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     return times;
 }
 
-GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality) {
+GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, const Environment& environment) {
     Impl& g = *impl_;
     quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
+    g.move_objects(environment);
     g.select(view);
     g.make_outlines(view, quality);
     PlaneSurfaces planes;

@@ -32,8 +32,9 @@ class ImageGenerator {
                       const FrameImage& image);
 
     /// What is seen at the pixel centres: ids and depth of the geometry, holes ignored (not for the frame loop: it
-    /// allocates). Of `quality` counts what decides visibility: set-up, distance rule, smallest feature.
-    GroundTruth ground_truth(const View& view, Quality quality = {});
+    /// allocates). Of `quality` counts what decides visibility: set-up, distance rule, smallest feature;
+    /// of `environment` what places objects.
+    GroundTruth ground_truth(const View& view, Quality quality = {}, const Environment& environment = {});
 
     [[nodiscard]] const Scene& scene() const;
     /// Name of the instruction set that shading runs on here, e.g. "AVX3_DL".

@@ -43,12 +43,19 @@ struct View {
     ImagePlane image;
 };
 
+/// A model of the scene as the host has placed it.
+struct PlacedModel {
+    std::uint32_t model = 0;  ///< index in Scene::models
+    ScenePose pose;
+};
+
 /// What the host may change from frame to frame; absent values are the scene's own.
 struct Environment {
-    double seconds = 0.0;  ///< scene time, drives texture drift
+    double seconds = 0.0;  ///< scene time, drives texture drift and objects that move
     std::optional<Sun> sun;
     std::optional<double>
         visibility;  ///< m, meteorological optical range; replaces the scene's, or adds haze where it has none
+    std::span<const PlacedModel> bodies{};  ///< their objects are numbered after the scene's, in this order
 };
 
 /// A finished or growing picture in memory that somebody else owns: 8-bit sRGB, four bytes a pixel R, G, B, A = 255.

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "ig_core/reference/entry_bounds.h"
 #include "ig_core/reference/reference_renderer.h"
 #include "ig_core/reference/seen_scene.h"
 #include "ig_core/reference/surface_colour.h"
+#include "ig_core/scene/motion.h"
+#include "ig_core/scene/placement.h"
 
 namespace quadrig::reference {
 namespace {
@@ -158,9 +161,20 @@ class Sampler {
     std::vector<Layer> layers_;
 };
 
+/// The scene with all that moves where it is at the time, and what the host has placed behind its objects.
+Scene scene_at(const Scene& at_rest, const Environment& environment) {
+    Scene scene = quadrig::scene_at(at_rest, environment.seconds);
+    for (const PlacedModel& body : environment.bodies)
+        if (body.model < at_rest.models.size())
+            for (const Object& object : at_rest.models[body.model].objects)
+                if (auto there = placed(object, body.pose)) scene.objects.push_back(*std::move(there));
+    return scene;
+}
+
 /// Draws every pixel of an image by a function of its sampler, column and row.
 template <class Mean>
-LinearImage draw_pixels(const Scene& scene, const View& view, const Environment& environment, Mean&& mean) {
+LinearImage draw_pixels(const Scene& at_rest, const View& view, const Environment& environment, Mean&& mean) {
+    const Scene scene = scene_at(at_rest, environment);
     const SeenScene seen(scene, view);
     const Air air = air_of(scene, environment);
     LinearImage image{view.image.width, view.image.height, {}};

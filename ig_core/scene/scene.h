@@ -94,6 +94,13 @@ struct Object {
 };
 inline constexpr int kMaxPlanes = 16;
 
+/// Something that a host may put down in the scene and move about: objects in its own axes (X right, Y forward, Z up,
+/// metres), without textures and hills.
+struct Model {
+    std::string name;
+    std::vector<Object> objects;
+};
+
 struct Sun {
     Degrees azimuth{180.0};  ///< clockwise from north
     Degrees elevation{45.0};
@@ -120,9 +127,10 @@ struct GroundPolygon {
 };
 inline constexpr std::size_t kMaxCorners = 16;
 
-/// A light that is seen as a disc facing the eye, at the depth of its centre. From afar the disc stays kLeastLightPixels
-/// wide and as bright as it is. Haze dims it like everything else, but what is brighter than white can lose more before
-/// it goes; the picture shows it in its own colour, as bright as the brightest channel allows. It has no id.
+/// A light that is seen as a disc facing the eye, at the depth of its centre. From afar the disc stays
+/// kLeastLightPixels wide and as bright as it is. Haze dims it like everything else, but what is brighter than white
+/// can lose more before it goes; the picture shows it in its own colour, as bright as the brightest channel allows. It
+/// has no id.
 struct LightPoint {
     ScenePoint position;
     Colour colour{1.0};
@@ -156,6 +164,7 @@ struct Scene {
     std::vector<CloudDeck> cloud_decks;
     std::vector<Texture> textures;
     std::vector<Object> objects;
+    std::vector<Model> models;  ///< not in the picture but where Environment::bodies puts them
 };
 
 /// Ids of what is not an object, in object-id planes.

@@ -60,6 +60,10 @@ FramePaints make_frame_paints(const Scene& scene) {
         }
     }
     for (const Object& object : scene.objects) paints.objects.push_back(make_paint(object.paint, paints.textures));
+    for (const Model& model : scene.models) {
+        std::vector<FramePaint>& out = paints.models.emplace_back();
+        for (const Object& object : model.objects) out.push_back(make_paint(object.paint, paints.textures));
+    }
     for (const GroundPolygon& polygon : scene.ground_polygons)
         paints.markings.push_back(make_paint(polygon.paint, paints.textures));
     for (const CloudDeck& deck : scene.cloud_decks) paints.decks.push_back(make_paint(deck.paint, paints.textures));

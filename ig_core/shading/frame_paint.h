@@ -13,6 +13,7 @@ struct FramePaints {
     std::vector<std::vector<TextureTerm>>
         terms;  ///< the scene's, by rising frequency: filtering drops them from the end
     std::vector<FramePaint> objects, markings, decks;
+    std::vector<std::vector<FramePaint>> models;  ///< by model and object
     FramePaint ground;
 };
 

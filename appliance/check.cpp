@@ -21,10 +21,11 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The four bytes that pcap (both byte orders, micro- and nanoseconds) and pcapng files begin with.
+/// A candump log, or the four bytes that pcap (both byte orders, micro- and nanoseconds) and pcapng files begin with.
 bool is_recording(const Path& file) {
     const std::string extension = file.extension().string();
     if (extension == ".pcap" || extension == ".pcapng") return true;
+    if (host::is_candump_log(file)) return true;
     std::array<char, 4> begin{};
     std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
     for (const std::string_view magic :
@@ -77,8 +78,7 @@ void check_recording(const Path& file) {
     Playback playback(capture, options);
     playback.state_at(playback.end());
     const host::LinkStatistics& counts = playback.statistics();
-    std::cout << "recording:   " << (capture.protocol == host::Protocol::cigi ? "CIGI 3" : "FlightGear FDM") << ", "
-              << text(capture.flow) << '\n'
+    std::cout << "recording:   " << title_of(capture.protocol) << ", " << text(capture.flow) << '\n'
               << "flight:      " << counts.frames << " poses in " << std::fixed << std::setprecision(3)
               << std::chrono::duration<double>(playback.end() - playback.begin()).count() << " s; " << counts.gaps.count
               << " gaps, the longest interval " << std::chrono::duration<double>(counts.gaps.longest).count() << " s\n";

@@ -15,7 +15,7 @@
 #include "appliance/stop_signals.h"
 #include "config/scene_file.h"
 #include "display/frame_writer.h"
-#include "host_link/udp_link.h"
+#include "host_link/live_link.h"
 
 namespace quadrig::appliance {
 namespace {
@@ -27,8 +27,8 @@ struct LiveOptions : RunOptions {
 
 /// A link, and what is known of the host at its other end.
 struct LiveHost {
-    explicit LiveHost(const host::LinkUrl& url) : link(url) {}
-    host::UdpLink link;
+    explicit LiveHost(const host::LinkUrl& url) : link(open_link(url)) {}
+    std::unique_ptr<host::LiveLink> link;
     host::HostState state;
     std::optional<HostEye> eye;
     std::optional<View> view;
@@ -51,8 +51,8 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& out
     const auto draw = [&hosts, &painter,
                        standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
         for (const auto& host : hosts) {
-            host->link.take_newest(host->state);
-            host->link.send_start_of_frame(static_cast<std::uint32_t>(tick.number), tick.started);
+            host->link->take_newest(host->state);
+            host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started});
             host->view = host->eye->view(host->state, tick.due);
         }
         scheduler::DrawnFrame drawn;
@@ -75,7 +75,7 @@ LiveHosts listen(const std::vector<host::LinkUrl>& links) {
     LiveHosts hosts;
     for (const host::LinkUrl& url : links) {
         hosts.push_back(std::make_unique<LiveHost>(url));
-        std::cerr << "quadrig: " << url.text << " listens on port " << hosts.back()->link.port() << '\n';
+        std::cerr << "quadrig: " << url.text << " listens on " << hosts.back()->link->place() << '\n';
     }
     return hosts;
 }
@@ -89,7 +89,8 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     if (settings.links.empty())
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     for (const host::LinkUrl& url : settings.links)
-        if (!url.port) throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT");
+        if (!url.live)
+            throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
     return settings;
 }
 
@@ -113,9 +114,9 @@ void run(const LiveOptions& options) {
     for (const auto& host : hosts) {
         host->eye.emplace(
             HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
-        host::SessionOptions session = session_options(host->link.url(), scene.origin);
+        host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
-        host->link.start(session);
+        host->link->start(session);
     }
     painter.warm_up(standby_view(painter.image_plane()));
     scheduler::FrameReport report = report_about(painter);
@@ -123,11 +124,11 @@ void run(const LiveOptions& options) {
     run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets), record, report);
 
     for (const auto& host : hosts) {
-        host->link.stop();
-        nlohmann::ordered_json told = link_report(host->link.url().text, host->link.statistics());
-        told["port"] = host->link.port();
-        told["replies"] = host->link.replies_sent();
-        told["replies_failed"] = host->link.replies_failed();
+        host->link->stop();
+        nlohmann::ordered_json told = link_report(host->link->url().text, host->link->statistics());
+        if (host->link->port() != 0) told["port"] = host->link->port();
+        told["replies"] = host->link->replies_sent();
+        told["replies_failed"] = host->link->replies_failed();
         report.links.push_back(std::move(told));
     }
     finish_report(report, record, painter, outlets, options.report);
@@ -135,8 +136,9 @@ void run(const LiveOptions& options) {
 
 constexpr const char* kNotes =
     "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
-    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT and fdm://ADDRESS:PORT; say\n"
-    "0.0.0.0 to be heard beyond this machine. Of several hosts the first that was heard within a second drives.\n"
+    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT and\n"
+    "can://INTERFACE; say 0.0.0.0 to be heard beyond this machine. Of several hosts the first that was heard within a "
+    "second drives.\n"
     "SIGINT (control-C) and SIGTERM end the run with its report.\n\n"
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
@@ -153,10 +155,10 @@ void add_run(CLI::App& program, Action& action) {
     const auto options = std::make_shared<LiveOptions>();
     command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
         ->option_text("[APPLIANCE.toml]");
-    add_list_option(
-        command, "--link", options->settings.links, read_link,
-        "Where a host is listened to: cigi://ADDRESS:PORT or\nfdm://ADDRESS:PORT (required; may be given again)",
-        "URL");
+    add_list_option(command, "--link", options->settings.links, read_link,
+                    "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT or can://INTERFACE "
+                    "(required; may be\ngiven again)",
+                    "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");

@@ -1,4 +1,5 @@
-/// Recorded traffic: the datagrams of one host out of a pcap or pcapng file, with their capture times.
+/// Recorded traffic: the datagrams of one host out of a pcap or pcapng file, or the frames of one CAN bus out of one of
+/// these or a candump log, with their capture times.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,7 @@ struct CaptureCounts {
 /// "10.0.0.5 -> 127.0.0.1:8004": a sender's address and the receiver's address and port. Two source ports are one flow,
 /// as on a live link: a host that comes back has a new one.
 struct Flow {
-    std::string source;
+    std::string source;  ///< CAN: the interface, and the rest is empty
     std::string destination;
     std::uint16_t destination_port = 0;
 };
@@ -52,10 +53,14 @@ struct Capture {
     }
 };
 
+/// Whether a file holds a frame as candump writes it (-l, -L) within its first 4096 bytes.
+bool is_candump_log(const std::filesystem::path& path);
+
 /// Reads a capture and takes the flow with the most datagrams that look like a host's, of `protocol` or, without one,
-/// of either. All datagrams of that flow are there, sound or not: judging them is the Session's. Links: Ethernet (VLAN
-/// tags too), raw IP, Linux cooked 1 and 2, BSD loopback. IPv4 and IPv6; UDP checksums are not looked at. Throws
-/// std::runtime_error, with the file's name, where it cannot be read or holds no host.
+/// of any. CAN frames are LINKTYPE_CAN_SOCKETCAN records. All datagrams of that flow are there, sound or not: judging
+/// them is the Session's. Links: Ethernet (VLAN tags too), raw IP, Linux cooked 1 and 2, BSD loopback, SocketCAN. IPv4
+/// and IPv6; UDP checksums are not looked at. Throws std::runtime_error, with the file's name, where it cannot be read
+/// or holds no host.
 Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol = std::nullopt);
 
 }  // namespace quadrig::host

@@ -58,6 +58,8 @@ SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene
     options.altitude_offset = url.altitude_offset.value_or(0.0);
     options.ownship = url.ownship.value_or(0);
     options.view = url.view;
+    options.canaerospace = url.canaerospace;
+    options.can_node = url.can_node.value_or(kDefaultCanNode);
     return options;
 }
 
@@ -76,7 +78,7 @@ std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Tim
 }
 
 Session::Session(const SessionOptions& options)
-    : options_(options), scene_frame_(options.scene_origin), view_(options.view) {
+    : options_(options), scene_frame_(options.scene_origin), can_pose_(options.canaerospace), view_(options.view) {
     statistics_.protocol = options.protocol;
     if (const auto& window = options.default_window)
         window_ = {window->left, window->right, window->top, window->bottom};
@@ -85,7 +87,16 @@ Session::Session(const SessionOptions& options)
 Verdict Session::accept(std::span<const std::byte> datagram, Time arrival) {
     ++statistics_.datagrams;
     statistics_.bytes += datagram.size();
-    return options_.protocol == Protocol::cigi ? accept_cigi(datagram, arrival) : accept_fdm(datagram, arrival);
+    answer_size_ = 0;
+    switch (options_.protocol) {
+        case Protocol::cigi:
+            return accept_cigi(datagram, arrival);
+        case Protocol::flightgear_fdm:
+            return accept_fdm(datagram, arrival);
+        case Protocol::canaerospace:
+            return accept_can(datagram, arrival);
+    }
+    return Verdict::rejected;
 }
 
 Verdict Session::reject(Reject reason) {
@@ -93,7 +104,7 @@ Verdict Session::reject(Reject reason) {
     return Verdict::rejected;
 }
 
-Verdict Session::take(Time arrival, const std::optional<Candidate>& pose, std::optional<Time> source_time) {
+Verdict Session::take(Time arrival, const std::optional<GeodeticPose>& pose, std::optional<Time> source_time) {
     state_.newest_arrival = arrival;
     run_ephemeris(arrival);
     if (!pose) return Verdict::no_pose;
@@ -111,7 +122,7 @@ void Session::restart() {
     comparable_ = false;
 }
 
-void Session::commit_pose(const Candidate& pose, Time arrival, std::optional<Time> source_time) {
+void Session::commit_pose(const GeodeticPose& pose, Time arrival, std::optional<Time> source_time) {
     PoseSample sample;
     sample.position = pose.position;
     sample.position.altitude += options_.altitude_offset;
@@ -140,7 +151,7 @@ Verdict Session::accept_fdm(std::span<const std::byte> datagram, Time arrival) {
     if (const auto* reason = std::get_if<Reject>(&decoded)) return reject(*reason);
     const auto& packet = std::get<flightgear::NetFdm>(decoded);
     ++statistics_.packets[packet.version];
-    const Candidate pose{
+    const GeodeticPose pose{
         {Degrees::from_radians(packet.latitude), Degrees::from_radians(packet.longitude), packet.altitude},
         {Degrees::from_radians(packet.psi), Degrees::from_radians(packet.theta), Degrees::from_radians(packet.phi)}};
     if (!in_range(pose.position, pose.attitude)) return reject(Reject::out_of_range);
@@ -179,7 +190,7 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
     reply_ =
         ReplyContext{message.order, ig_control.minor_version, ig_control.last_ig_frame.has_value(), ig_control.database,
                      state_.mode,   ig_control.host_frame};
-    std::optional<Candidate> pose;
+    std::optional<GeodeticPose> pose;
     for (auto rest = message.packets; !rest.empty();) {
         const cigi::Packet packet = cigi::next_packet(rest);
         const auto as = [&]<class P>(P) { return cigi::decode<P>(packet.bytes, message.order); };

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "host_link/canaerospace_pose.h"
 #include "host_link/cigi.h"
 #include "host_link/flightgear_fdm.h"
 #include "host_link/frame_order.h"
@@ -19,6 +21,8 @@
 
 namespace quadrig::host {
 
+inline constexpr std::uint8_t kDefaultCanNode = 32;
+
 struct SessionOptions {
     Protocol protocol = Protocol::cigi;
     GeodeticPosition scene_origin;
@@ -26,6 +30,8 @@ struct SessionOptions {
     std::uint16_t ownship = 0;                 ///< entity id
     std::optional<std::uint16_t> view;         ///< view id; absent: the first one that the host names
     std::optional<ViewWindow> default_window;  ///< fills up what a View Definition leaves out
+    canaerospace::PoseSettings canaerospace;   ///< which messages make a pose
+    std::uint8_t can_node = kDefaultCanNode;   ///< under which CANaerospace's services find us
     Time gap_threshold = std::chrono::milliseconds(50);
 };
 
@@ -61,9 +67,13 @@ class Session {
 
     explicit Session(const SessionOptions& options);
 
-    /// Folds a datagram in. A datagram is taken whole or not at all, but for single packets whose values are out of
-    /// range. Allocates nothing.
+    /// Folds a datagram (of CAN: a frame, as its LINKTYPE_CAN_SOCKETCAN record) in. A datagram is taken whole or not at
+    /// all, but for single packets whose values are out of range. Allocates nothing.
     Verdict accept(std::span<const std::byte> datagram, Time arrival);
+
+    /// What the protocol wants sent back at once for the datagram just given to accept: empty for most. A CAN frame is
+    /// its LINKTYPE_CAN_SOCKETCAN record.
+    [[nodiscard]] std::span<const std::byte> answer() const { return {answer_.data(), answer_size_}; }
 
     [[nodiscard]] const HostState& state() const { return state_; }
     [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
@@ -73,25 +83,23 @@ class Session {
     [[nodiscard]] std::span<const cigi::EntityControl> entities() const { return {entities_.data(), entity_count_}; }
 
   private:
-    struct Candidate {
-        GeodeticPosition position;
-        Attitude attitude;
-    };
     struct Window {
         std::optional<Degrees> left, right, top, bottom;
     };
 
     Verdict reject(Reject reason);
-    Verdict take(Time arrival, const std::optional<Candidate>& pose, std::optional<Time> source_time);
+    Verdict take(Time arrival, const std::optional<GeodeticPose>& pose, std::optional<Time> source_time);
     void restart();
-    void commit_pose(const Candidate& pose, Time arrival, std::optional<Time> source_time);
+    void commit_pose(const GeodeticPose& pose, Time arrival, std::optional<Time> source_time);
     void run_ephemeris(Time arrival);
 
     Verdict accept_fdm(std::span<const std::byte> datagram, Time arrival);
+    Verdict accept_can(std::span<const std::byte> record, Time arrival);
+    void apply(const canaerospace::Message& message);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
     void apply(const cigi::IgControl& packet);
-    std::optional<Candidate> apply(const cigi::EntityControl& packet);
+    std::optional<GeodeticPose> apply(const cigi::EntityControl& packet);
     void apply(const cigi::ViewControl& packet);
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);
@@ -106,6 +114,10 @@ class Session {
     FrameOrder frame_order_;
     CigiClock cigi_clock_;
     FdmClock fdm_clock_;
+    canaerospace::PoseAssembler can_pose_;
+    std::optional<std::chrono::year_month_day> can_date_;
+    std::array<std::byte, kCanRecordSize> answer_{};
+    std::size_t answer_size_ = 0;
     std::optional<std::uint16_t> view_;
     Window window_;
     struct Ephemeris {

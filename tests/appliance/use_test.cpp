@@ -95,7 +95,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "0"}, "below 180"},
         {{"replay", flight}, "--scene"},
         {{"replay", "--scene", scene}, "recording"},
-        {{"replay", flight, "--scene", scene, "--link", "can:"}, "can"},
+        {{"replay", flight, "--scene", scene, "--link", "can://vcan0"}, "without an address"},
         {{"replay", flight, "--scene", scene, "--link", "cigi://127.0.0.1:8004"}, "without an address"},
         {{"replay", flight, "--scene", scene, "--sink", "mpeg:x"}, "mpeg:x"},
         {{"replay", flight, "--scene", scene, "--sink", "png:"}, "png:"},

@@ -89,8 +89,8 @@ void check_recording(const Path& file) {
     print_counts("packets:     ", packets_by_name(counts));
     print_counts("rejected:    ", rejected_by_reason(counts));
     std::cout << "in the file: " << capture.counts.packets << " packets; " << capture.counts.other_flow
-              << " of other flows, " << capture.counts.not_udp << " not UDP, " << capture.counts.fragments
-              << " fragments, " << capture.counts.damaged << " damaged\n";
+              << " of other flows, " << capture.counts.not_udp << " other than UDP and Modbus, "
+              << capture.counts.fragments << " fragments, " << capture.counts.damaged << " damaged\n";
     if (capture.truncated) throw std::runtime_error(file.string() + ": ends early: " + *capture.truncated);
 }
 

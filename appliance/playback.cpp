@@ -25,7 +25,7 @@ Playback::Playback(const host::Capture& capture, const host::SessionOptions& opt
 
 host::Verdict Playback::play_next() {
     const host::Capture::Datagram& datagram = capture_.datagrams[next_++];
-    return session_.accept(capture_.payload(datagram), datagram.captured);
+    return session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
 }
 
 const host::HostState& Playback::state_at(host::Time time) {

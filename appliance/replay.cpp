@@ -66,7 +66,7 @@ void replay(const ReplayOptions& options) {
     if (!options.settings.scene) throw WrongUse("--scene is missing: what is there to see?");
     if (options.link && options.link->live)
         throw WrongUse("link '" + options.link->text +
-                       "': a recording's is named without an address: cigi:, fdm: or can:");
+                       "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");
     watch_stop_signals();
     const PictureSettings settings = picture_settings(options.settings, options.overlay);
     const host::Capture capture =
@@ -111,8 +111,9 @@ void replay(const ReplayOptions& options) {
 }
 
 constexpr const char* kNotes =
-    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, or of CANaerospace, or a log of\n"
-    "candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ seconds "
+    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, of Modbus/TCP or of\n"
+    "CANaerospace, or a log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows "
+    "the flight k/HZ seconds "
     "after its first pose, smoothed between the\n"
     "host's samples: in real time and with --fast, with any number of threads, frame k is the same picture. In real\n"
     "time a frame that is late is left out, and the one before it held; the report counts them.\n\n"
@@ -128,10 +129,10 @@ void add_replay(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("replay", "Play a recorded flight through the image generator");
     const auto options = std::make_shared<ReplayOptions>();
     command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
-    add_option(
-        command, "--link", options->link, read_link,
-        "The recording's protocol, cigi:, fdm: or can:, with options such as\ncigi:?ownship=3 (default: what it holds)",
-        "URL");
+    add_option(command, "--link", options->link, read_link,
+               "The recording's protocol, cigi:, fdm:, can: or modbus:,\nwith options such as\ncigi:?ownship=3 "
+               "(default: what it holds)",
+               "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
     auto* fast = command.add_flag("--fast", options->fast,

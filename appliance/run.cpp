@@ -47,12 +47,14 @@ LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
     return latest;
 }
 
-scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets) {
-    const auto draw = [&hosts, &painter,
+scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets,
+                                const scheduler::FrameRecord& record) {
+    const auto draw = [&hosts, &painter, &record,
                        standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
         for (const auto& host : hosts) {
             host->link->take_newest(host->state);
-            host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started});
+            host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started,
+                                      static_cast<std::uint32_t>(record.deadline_misses)});
             host->view = host->eye->view(host->state, tick.due);
         }
         scheduler::DrawnFrame drawn;
@@ -121,7 +123,7 @@ void run(const LiveOptions& options) {
     painter.warm_up(standby_view(painter.image_plane()));
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
-    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets), record, report);
+    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets, record), record, report);
 
     for (const auto& host : hosts) {
         host->link->stop();
@@ -136,8 +138,9 @@ void run(const LiveOptions& options) {
 
 constexpr const char* kNotes =
     "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
-    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT and\n"
-    "can://INTERFACE; say 0.0.0.0 to be heard beyond this machine. Of several hosts the first that was heard within a "
+    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\n"
+    "can://INTERFACE and modbus://ADDRESS:PORT; say 0.0.0.0 to be heard beyond this machine. Of several hosts the "
+    "first that was heard within a "
     "second drives.\n"
     "SIGINT (control-C) and SIGTERM end the run with its report.\n\n"
     "The same settings may come from a file, for example:\n"

@@ -17,7 +17,9 @@
 #include "host_link/canaerospace.h"
 #include "host_link/cigi.h"
 #include "host_link/flightgear_fdm.h"
+#include "host_link/modbus.h"
 #include "host_link/network_packet.h"
+#include "host_link/tcp_streams.h"
 
 namespace quadrig::host {
 
@@ -27,6 +29,7 @@ struct FlowKey {
     std::string interface;  ///< CAN's, and nothing else is told of it
     IpAddress source, destination;
     std::uint16_t destination_port = 0;
+    bool stream = false;  ///< TCP
     friend auto operator<=>(const FlowKey&, const FlowKey&) = default;
 };
 
@@ -44,7 +47,7 @@ struct Read {
 };
 
 constexpr std::array<Protocol, kProtocolCount> kProtocols{Protocol::cigi, Protocol::flightgear_fdm,
-                                                          Protocol::canaerospace};
+                                                          Protocol::canaerospace, Protocol::modbus};
 
 bool is_canaerospace(std::span<const std::byte> record) {
     const auto frame = can_frame(record);
@@ -52,6 +55,11 @@ bool is_canaerospace(std::span<const std::byte> record) {
     const auto message = canaerospace::decode(*frame);
     const auto* sound = std::get_if<canaerospace::Message>(&message);
     return sound != nullptr && canaerospace::parameter_at(canaerospace::parameter_index(sound->id)).id != 0;
+}
+
+bool writes_registers(std::span<const std::byte> frame) {
+    const auto request = modbus::read_request(frame);
+    return std::holds_alternative<modbus::Request>(request) && std::get<modbus::Request>(request).write.has_value();
 }
 
 bool is_fdm(std::span<const std::byte> payload) {
@@ -63,14 +71,16 @@ bool is_fdm(std::span<const std::byte> payload) {
 }
 
 bool looks_like(Protocol protocol, const FlowKey& flow, std::span<const std::byte> payload) {
-    const bool bus = !flow.interface.empty();
+    const bool bus = !flow.interface.empty(), datagrams = !bus && !flow.stream;
     switch (protocol) {
         case Protocol::cigi:
-            return !bus && cigi::looks_like_host_message(payload);
+            return datagrams && cigi::looks_like_host_message(payload);
         case Protocol::flightgear_fdm:
-            return !bus && is_fdm(payload);
+            return datagrams && is_fdm(payload);
         case Protocol::canaerospace:
             return bus && is_canaerospace(payload);
+        case Protocol::modbus:
+            return flow.stream && writes_registers(payload);
     }
     return false;
 }
@@ -110,13 +120,13 @@ Time capture_time(const timeval& stamp) {
     return std::chrono::seconds(seconds) + std::chrono::nanoseconds(nanoseconds);
 }
 
-void add(Read& read, Time captured, const FlowKey& key, std::span<const std::byte> payload) {
+void add(Read& read, Time captured, const FlowKey& key, std::span<const std::byte> payload, std::uint32_t source = 0) {
     FlowCount& flow = read.flows.try_emplace(key, FlowCount{{}, 0, read.flows.size()}).first->second;
     for (std::size_t p = 0; p < kProtocols.size(); ++p)
         flow.matches[p] += looks_like(kProtocols[p], key, payload) ? 1U : 0U;
     ++flow.all;
     read.flow_of.push_back(flow.order);
-    read.capture.datagrams.push_back({captured, read.capture.bytes.size(), payload.size()});
+    read.capture.datagrams.push_back({captured, read.capture.bytes.size(), payload.size(), source});
     read.capture.bytes.insert(read.capture.bytes.end(), payload.begin(), payload.end());
 }
 
@@ -147,6 +157,7 @@ Read read_pcap(const std::filesystem::path& path) {
     Read read;
     CaptureCounts& counts = read.capture.counts;
     const bool bus = pcap_datalink(pcap.get()) == DLT_CAN_SOCKETCAN;
+    TcpStreams streams;
     pcap_pkthdr* header = nullptr;
     const unsigned char* data = nullptr;
     int status = 0;
@@ -158,10 +169,18 @@ Read read_pcap(const std::filesystem::path& path) {
             add(read, captured, {kSomeBus, {}, {}, 0}, packet);
             continue;
         }
-        const auto result = udp_datagram(pcap_datalink(pcap.get()), packet);
+        const auto result = transport_packet(pcap_datalink(pcap.get()), packet);
         if (const auto* datagram = std::get_if<UdpDatagram>(&result)) {
             add(read, captured, {{}, datagram->source, datagram->destination, datagram->destination_port},
                 datagram->payload);
+            continue;
+        }
+        if (const auto* segment = std::get_if<TcpSegment>(&result)) {
+            const bool modbus = streams.feed(*segment, [&](const TcpStreams::Stream& stream, auto frame) {
+                add(read, captured, {{}, segment->source, segment->destination, segment->destination_port, true}, frame,
+                    stream.number);
+            });
+            if (!modbus) ++counts.not_udp;
             continue;
         }
         switch (std::get<NotUdp>(result)) {
@@ -204,7 +223,8 @@ void select(Capture& capture, const std::vector<std::size_t>& flow_of, std::size
         if (!protocol || *protocol == known) wanted += (wanted.empty() ? "" : " or ") + std::string(title_of(known));
     std::string message = path.string() + ": no datagram of a " + wanted + " host in " +
                           std::to_string(read.capture.counts.packets) + " packets, " +
-                          std::to_string(read.capture.datagrams.size()) + " of them UDP datagrams or CAN frames";
+                          std::to_string(read.capture.datagrams.size()) +
+                          " of them UDP datagrams, Modbus requests or CAN frames";
     if (read.capture.truncated) message += "; " + *read.capture.truncated;
     throw std::runtime_error(message);
 }

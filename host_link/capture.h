@@ -18,7 +18,7 @@ namespace quadrig::host {
 /// Everything in a file that is not a datagram of the flow taken, by why.
 struct CaptureCounts {
     std::uint64_t packets = 0;     ///< read from the file, of all kinds
-    std::uint64_t not_udp = 0;     ///< other network or transport protocols
+    std::uint64_t not_udp = 0;     ///< other network or transport protocols, TCP that is not Modbus among them
     std::uint64_t fragments = 0;   ///< of IP datagrams: skipped
     std::uint64_t damaged = 0;     ///< headers cut or contradicting themselves
     std::uint64_t other_flow = 0;  ///< UDP of other senders or ports, replies to the host among them
@@ -35,9 +35,10 @@ std::string text(const Flow& flow);
 
 struct Capture {
     struct Datagram {
-        Time captured{};         ///< since 1970
-        std::size_t offset = 0;  ///< in `bytes`
-        std::size_t size = 0;    ///< what the file holds of it
+        Time captured{};           ///< since 1970
+        std::size_t offset = 0;    ///< in `bytes`
+        std::size_t size = 0;      ///< what the file holds of it
+        std::uint32_t source = 0;  ///< Modbus: which of the file's connections it came over, counted from 0
     };
 
     Protocol protocol = Protocol::cigi;
@@ -57,7 +58,8 @@ struct Capture {
 bool is_candump_log(const std::filesystem::path& path);
 
 /// Reads a capture and takes the flow with the most datagrams that look like a host's, of `protocol` or, without one,
-/// of any. CAN frames are LINKTYPE_CAN_SOCKETCAN records. All datagrams of that flow are there, sound or not: judging
+/// of any. CAN frames are LINKTYPE_CAN_SOCKETCAN records, Modbus
+/// requests whole frames. All datagrams of that flow are there, sound or not: judging
 /// them is the Session's. Links: Ethernet (VLAN tags too), raw IP, Linux cooked 1 and 2, BSD loopback, SocketCAN. IPv4
 /// and IPv6; UDP checksums are not looked at. Throws std::runtime_error, with the file's name, where it cannot be read
 /// or holds no host.

@@ -5,6 +5,7 @@
 
 #include "host_link/canaerospace.h"
 #include "host_link/cigi.h"
+#include "host_link/modbus.h"
 
 namespace quadrig::host {
 
@@ -18,6 +19,8 @@ std::string_view name_of_packet(Protocol protocol, std::uint8_t kind) {
             return kind == 24 ? "net_fdm_24" : "net_fdm_25";
         case Protocol::canaerospace:
             return canaerospace::parameter_at(kind).name;
+        case Protocol::modbus:
+            return modbus::name_of(modbus::Function{kind});
     }
     return "unknown";
 }

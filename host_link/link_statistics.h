@@ -25,9 +25,9 @@ struct LinkStatistics {
     Protocol protocol = Protocol::cigi;
     std::uint64_t datagrams = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t frames = 0;                            ///< poses accepted
-    std::array<std::uint64_t, 256> packets{};            ///< in sound datagrams; CIGI: by packet id, FDM: by
-                                                         ///< version, CANaerospace: by parameter_index
+    std::uint64_t frames = 0;                  ///< poses accepted
+    std::array<std::uint64_t, 256> packets{};  ///< in sound datagrams; CIGI: by packet id, FDM: by
+                                               ///< version, CANaerospace: by parameter_index, Modbus: by function
     std::array<std::uint64_t, kRejectCount> rejected{};  ///< by Reject
     std::uint64_t lost = 0;
     std::uint64_t duplicate = 0;

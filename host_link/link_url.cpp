@@ -36,8 +36,8 @@ Protocol protocol_of(const LinkUrl& url, std::string_view scheme) {
     if (scheme == "cigi") return Protocol::cigi;
     if (scheme == "fdm") return Protocol::flightgear_fdm;
     if (scheme == "can") return Protocol::canaerospace;
-    if (scheme == "modbus") fail(url, std::string(scheme) + " links are not supported yet");
-    fail(url, "unknown scheme; known are cigi:, fdm: and can:");
+    if (scheme == "modbus") return Protocol::modbus;
+    fail(url, "unknown scheme; known are cigi:, fdm:, can: and modbus:");
 }
 
 bool is_numeric_address(int family, const std::string& address) {
@@ -131,9 +131,28 @@ bool set_can_option(LinkUrl& url, std::string_view key, std::string_view value) 
     return true;
 }
 
+modbus::WordOrder word_order_of(const LinkUrl& url, std::string_view value) {
+    if (value == "abcd") return {false, false};
+    if (value == "cdab") return {true, false};
+    if (value == "badc") return {false, true};
+    if (value == "dcba") return {true, true};
+    fail(url, "word_order is abcd, cdab, badc or dcba, not '" + std::string(value) + "'");
+}
+
+bool set_modbus_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    if (key == "base")
+        url.modbus.base = whole_in<std::uint16_t>(url, key, value, 0, 65536 - modbus::kHoldingRegisters);
+    else if (key == "word_order")
+        url.modbus.order = word_order_of(url, value);
+    else
+        return false;
+    return true;
+}
+
 void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
     if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
+    if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
     url.altitude_offset = number<double>(value);
     if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
@@ -143,12 +162,13 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
 }  // namespace
 
 std::string_view name_of(Protocol protocol) {
-    static constexpr std::array<std::string_view, kProtocolCount> kNames{"cigi", "fdm", "can"};
+    static constexpr std::array<std::string_view, kProtocolCount> kNames{"cigi", "fdm", "can", "modbus"};
     return kNames[static_cast<std::size_t>(protocol)];
 }
 
 std::string_view title_of(Protocol protocol) {
-    static constexpr std::array<std::string_view, kProtocolCount> kTitles{"CIGI 3", "FlightGear FDM", "CANaerospace"};
+    static constexpr std::array<std::string_view, kProtocolCount> kTitles{"CIGI 3", "FlightGear FDM", "CANaerospace",
+                                                                          "Modbus"};
     return kTitles[static_cast<std::size_t>(protocol)];
 }
 

@@ -1,5 +1,6 @@
-/// Links as users name them: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT, can://INTERFACE, and for a recording just
-/// cigi:, fdm: or can:.
+/// Links as users name them: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT, can://INTERFACE, modbus://ADDRESS:PORT, and for a
+/// recording just
+/// cigi:, fdm:, can: or modbus:.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +10,16 @@
 #include <string_view>
 
 #include "host_link/canaerospace_pose.h"
+#include "host_link/modbus_pose.h"
 
 namespace quadrig::host {
 
-enum class Protocol : std::uint8_t { cigi, flightgear_fdm, canaerospace };
-inline constexpr std::size_t kProtocolCount = 3;
+enum class Protocol : std::uint8_t { cigi, flightgear_fdm, canaerospace, modbus };
+inline constexpr std::size_t kProtocolCount = 4;
 
-/// "cigi", "fdm", "can": the scheme of its URLs.
+/// "cigi", "fdm", "can", "modbus": the scheme of its URLs.
 std::string_view name_of(Protocol protocol);
-/// "CIGI 3", "FlightGear FDM", "CANaerospace".
+/// "CIGI 3", "FlightGear FDM", "CANaerospace", "Modbus".
 std::string_view title_of(Protocol protocol);
 
 /// A link that cannot be understood, or is not supported: wrong use (exit status 2). The message names the URL.
@@ -35,6 +37,7 @@ struct LinkUrl {
     std::optional<std::uint16_t> view;        ///< ?view=ID
     std::optional<double> altitude_offset;    ///< ?altitude_offset=METRES, added to the host's altitudes
     canaerospace::PoseSettings canaerospace;  ///< ?position=, ?commit=, ?channel=, ?timeout=
+    modbus::PoseSettings modbus;              ///< ?base=, ?word_order=
     std::optional<std::uint8_t> can_node;     ///< ?node=ID
 };
 

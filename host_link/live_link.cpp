@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "host_link/can_link.h"
+#include "host_link/modbus_link.h"
 #include "host_link/udp_link.h"
 
 namespace quadrig::host {
@@ -80,6 +81,7 @@ Time arrival_time(msghdr& header, Time realtime, Time monotonic) {
 
 std::unique_ptr<LiveLink> open_link(const LinkUrl& url) {
     if (url.protocol == Protocol::canaerospace) return std::make_unique<CanLink>(url);
+    if (url.protocol == Protocol::modbus) return std::make_unique<ModbusLink>(url);
     return std::make_unique<UdpLink>(url);
 }
 

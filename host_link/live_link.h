@@ -35,6 +35,7 @@ struct Descriptor {
 struct FrameStatus {
     std::uint32_t frame = 0;
     Time now{};
+    std::uint32_t misses = 0;  ///< deadlines missed so far
 };
 
 /// Who calls what: one thread (the frame loop's) calls take_newest and frame_begins, which neither wait nor allocate;

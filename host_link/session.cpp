@@ -59,6 +59,7 @@ SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene
     options.ownship = url.ownship.value_or(0);
     options.view = url.view;
     options.canaerospace = url.canaerospace;
+    options.modbus = url.modbus;
     options.can_node = url.can_node.value_or(kDefaultCanNode);
     return options;
 }
@@ -84,7 +85,7 @@ Session::Session(const SessionOptions& options)
         window_ = {window->left, window->right, window->top, window->bottom};
 }
 
-Verdict Session::accept(std::span<const std::byte> datagram, Time arrival) {
+Verdict Session::accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source) {
     ++statistics_.datagrams;
     statistics_.bytes += datagram.size();
     answer_size_ = 0;
@@ -95,6 +96,8 @@ Verdict Session::accept(std::span<const std::byte> datagram, Time arrival) {
             return accept_fdm(datagram, arrival);
         case Protocol::canaerospace:
             return accept_can(datagram, arrival);
+        case Protocol::modbus:
+            return accept_modbus(datagram, arrival, source);
     }
     return Verdict::rejected;
 }
@@ -119,6 +122,7 @@ Verdict Session::take(Time arrival, const std::optional<GeodeticPose>& pose, std
 void Session::restart() {
     ++statistics_.restarts;
     cigi_clock_.restart();
+    modbus_clock_.restart();
     comparable_ = false;
 }
 

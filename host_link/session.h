@@ -17,6 +17,7 @@
 #include "host_link/host_state.h"
 #include "host_link/link_statistics.h"
 #include "host_link/link_url.h"
+#include "host_link/modbus_pose.h"
 #include "host_link/source_clock.h"
 
 namespace quadrig::host {
@@ -31,6 +32,7 @@ struct SessionOptions {
     std::optional<std::uint16_t> view;         ///< view id; absent: the first one that the host names
     std::optional<ViewWindow> default_window;  ///< fills up what a View Definition leaves out
     canaerospace::PoseSettings canaerospace;   ///< which messages make a pose
+    modbus::PoseSettings modbus;               ///< where the registers are
     std::uint8_t can_node = kDefaultCanNode;   ///< under which CANaerospace's services find us
     Time gap_threshold = std::chrono::milliseconds(50);
 };
@@ -64,12 +66,17 @@ std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Tim
 class Session {
   public:
     static constexpr std::size_t kMaxEntities = 256;
+    /// Connections whose unfinished writes are kept; of more, those that wrote last.
+    static constexpr std::size_t kMostModbusHosts = 8;
 
     explicit Session(const SessionOptions& options);
 
     /// Folds a datagram (of CAN: a frame, as its LINKTYPE_CAN_SOCKETCAN record) in. A datagram is taken whole or not at
     /// all, but for single packets whose values are out of range. Allocates nothing.
-    Verdict accept(std::span<const std::byte> datagram, Time arrival);
+    /// `source` tells a Modbus host's connection from others.
+    Verdict accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source = 0);
+    /// Counts what a link refused before it was a datagram.
+    void refuse(Reject reason) { reject(reason); }
 
     /// What the protocol wants sent back at once for the datagram just given to accept: empty for most. A CAN frame is
     /// its LINKTYPE_CAN_SOCKETCAN record.
@@ -79,6 +86,8 @@ class Session {
     [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
     /// Present once a CIGI host has spoken.
     [[nodiscard]] const std::optional<ReplyContext>& reply_context() const { return reply_; }
+    /// Of the newest Modbus pose; 0 before the first.
+    [[nodiscard]] std::uint16_t modbus_sequence() const;
     /// Newest Entity Control of every entity but the ownship, in the order they appeared.
     [[nodiscard]] std::span<const cigi::EntityControl> entities() const { return {entities_.data(), entity_count_}; }
 
@@ -96,6 +105,8 @@ class Session {
     Verdict accept_fdm(std::span<const std::byte> datagram, Time arrival);
     Verdict accept_can(std::span<const std::byte> record, Time arrival);
     void apply(const canaerospace::Message& message);
+    Verdict accept_modbus(std::span<const std::byte> frame, Time arrival, std::uint32_t source);
+    modbus::PoseRegisters& registers_of(std::uint32_t source);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
     void apply(const cigi::IgControl& packet);
@@ -112,10 +123,23 @@ class Session {
     LinkStatistics statistics_;
     std::optional<ReplyContext> reply_;
     FrameOrder frame_order_;
-    CigiClock cigi_clock_;
+    TickClock cigi_clock_{kCigiTick};
     FdmClock fdm_clock_;
     canaerospace::PoseAssembler can_pose_;
     std::optional<std::chrono::year_month_day> can_date_;
+    struct ModbusHost {
+        std::optional<std::uint32_t> source;
+        std::uint64_t used = 0;  ///< when, counted in datagrams
+        modbus::PoseRegisters registers;
+    };
+    struct ModbusDriving {
+        std::uint32_t source = 0;
+        std::uint16_t sequence = 0;
+        Time commit{};
+    };
+    std::array<ModbusHost, kMostModbusHosts> modbus_hosts_{};
+    std::optional<ModbusDriving> modbus_driving_;
+    TickClock modbus_clock_{kModbusTick};
     std::array<std::byte, kCanRecordSize> answer_{};
     std::size_t answer_size_ = 0;
     std::optional<std::uint16_t> view_;

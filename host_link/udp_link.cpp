@@ -1,19 +1,14 @@
 #include "host_link/udp_link.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstddef>
-#include <cstring>
-#include <ctime>
-#include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "host_link/internet_address.h"
 
 namespace quadrig::host {
 
@@ -23,24 +18,6 @@ constexpr unsigned kBatch = 32;
 constexpr std::size_t kLargestDatagram = 65535;
 // A second of a fast host's messages, so that a stall of ours loses none.
 constexpr int kReceiveBuffer = 1 << 20;
-
-socklen_t endpoint(const LinkUrl& url, sockaddr_storage& storage) {
-    const auto port = htons(url.port.value_or(0));
-    sockaddr_in v4{};
-    if (inet_pton(AF_INET, url.address.c_str(), &v4.sin_addr) == 1) {
-        v4.sin_family = AF_INET;
-        v4.sin_port = port;
-        std::memcpy(&storage, &v4, sizeof v4);
-        return sizeof v4;
-    }
-    sockaddr_in6 v6{};
-    if (inet_pton(AF_INET6, url.address.c_str(), &v6.sin6_addr) != 1)
-        throw std::runtime_error("link '" + url.text + "': not a numeric address");
-    v6.sin6_family = AF_INET6;
-    v6.sin6_port = port;
-    std::memcpy(&storage, &v6, sizeof v6);
-    return sizeof v6;
-}
 
 }  // namespace
 
@@ -78,20 +55,11 @@ UdpLink::UdpLink(LinkUrl given)
     setsockopt(socket_.fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
     setsockopt(socket_.fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
     sockaddr_storage storage{};
-    const socklen_t size = endpoint(url(), storage);
+    const socklen_t size = socket_address(url(), storage);
     if (bind(socket_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
 }
 
-std::uint16_t UdpLink::port() const {
-    sockaddr_storage storage{};
-    socklen_t size = sizeof storage;
-    getsockname(socket_.fd, reinterpret_cast<sockaddr*>(&storage), &size);
-    sockaddr_in v4{};
-    // The port stands at the same place in both families.
-    static_assert(offsetof(sockaddr_in, sin_port) == offsetof(sockaddr_in6, sin6_port));
-    std::memcpy(&v4, &storage, sizeof v4);
-    return ntohs(v4.sin_port);
-}
+std::uint16_t UdpLink::port() const { return bound_port(socket_.fd); }
 
 void UdpLink::receive() {
     const auto batch = std::make_unique<Batch>();

@@ -70,7 +70,8 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("can://vcan0?node=0"), Contains("node is a number from 1 to 255"));
     CHECK_THAT(error_of("can://vcan0?position=radio"), Contains("position is gps, ins or auxiliary"));
     CHECK_THAT(error_of("can://vcan0?ownship=1"), Contains("unknown option"));
-    CHECK_THAT(error_of("modbus://127.0.0.1:1502"), Contains("modbus links are not supported yet"));
+    CHECK_THAT(error_of("modbus://127.0.0.1:1502?word_order=abdc"), Contains("word_order is abcd"));
+    CHECK_THAT(error_of("modbus://127.0.0.1:1502?base=65409"), Contains("base is a number from 0 to 65408"));
     CHECK_THAT(error_of("cigi://127.0.0.1"), Contains("no port"));
     CHECK_THAT(error_of("cigi://[::1]"), Contains("no port"));
     CHECK_THAT(error_of("cigi://127.0.0.1:65536"), Contains("bad port"));

@@ -16,12 +16,14 @@
 #include "config/scene_file.h"
 #include "display/frame_writer.h"
 #include "host_link/live_link.h"
+#include "host_link/recorder.h"
 
 namespace quadrig::appliance {
 namespace {
 
 struct LiveOptions : RunOptions {
     std::filesystem::path appliance;
+    std::filesystem::path record;
     bool fifo = false;
 };
 
@@ -48,11 +50,12 @@ LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
 }
 
 scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets,
-                                const scheduler::FrameRecord& record) {
-    const auto draw = [&hosts, &painter, &record,
+                                const scheduler::FrameRecord& record, host::Recorder* recorder) {
+    const auto draw = [&hosts, &painter, &record, recorder,
                        standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
         for (const auto& host : hosts) {
             host->link->take_newest(host->state);
+            if (recorder != nullptr) recorder->frame(tick.number, tick.due, host->link->heard());
             host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started,
                                       static_cast<std::uint32_t>(record.deadline_misses)});
             host->view = host->eye->view(host->state, tick.due);
@@ -93,6 +96,8 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     for (const host::LinkUrl& url : settings.links)
         if (!url.live)
             throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
+    if (!options.record.empty() && settings.links.size() != 1)
+        throw WrongUse("--record takes one link: a recording is one host's");
     return settings;
 }
 
@@ -113,6 +118,12 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
+    std::unique_ptr<host::Recorder> recorder;
+    if (!options.record.empty())
+        recorder = std::make_unique<host::Recorder>(
+            *hosts.front()->link,
+            host::Recorder::Settings{options.record,
+                                     host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
     for (const auto& host : hosts) {
         host->eye.emplace(
             HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
@@ -123,7 +134,8 @@ void run(const LiveOptions& options) {
     painter.warm_up(standby_view(painter.image_plane()));
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
-    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets, record), record, report);
+    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets, record, recorder.get()),
+                     record, report);
 
     for (const auto& host : hosts) {
         host->link->stop();
@@ -131,9 +143,11 @@ void run(const LiveOptions& options) {
         if (host->link->port() != 0) told["port"] = host->link->port();
         told["replies"] = host->link->replies_sent();
         told["replies_failed"] = host->link->replies_failed();
+        if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
         report.links.push_back(std::move(told));
     }
     finish_report(report, record, painter, outlets, options.report);
+    if (recorder) recorder->finish();
 }
 
 constexpr const char* kNotes =
@@ -164,6 +178,8 @@ void add_run(CLI::App& program, Action& action) {
                     "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
+    command.add_option("--record", options->record, "Write what the host sends into a recording (one link only)")
+        ->option_text("FILE");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");
     command.footer(kNotes);
     command.callback([options, &action] { action = [options] { run(*options); }; });

@@ -21,6 +21,8 @@ namespace {
 constexpr int kReceiveBuffer = 4 << 20;
 constexpr std::chrono::milliseconds kBusDownPause{100};
 
+}  // namespace
+
 CanFrame from_kernel(const struct ::can_frame& frame) {
     CanFrame result;
     result.extended = (frame.can_id & CAN_EFF_FLAG) != 0;
@@ -33,7 +35,14 @@ CanFrame from_kernel(const struct ::can_frame& frame) {
     return result;
 }
 
-}  // namespace
+struct ::can_frame to_kernel(const CanFrame& frame) {
+    struct ::can_frame result {};
+    result.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U) |
+                    (frame.error ? CAN_ERR_FLAG : 0U);
+    result.can_dlc = frame.size;
+    std::memcpy(result.data, frame.data.data(), frame.size);
+    return result;
+}
 
 CanLink::CanLink(const LinkUrl& given)
     : LiveLink(given), socket_(socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
@@ -73,8 +82,8 @@ bool CanLink::drain() {
         const Time arrival = arrival_time(header, clock_time(CLOCK_REALTIME), clock_time(CLOCK_MONOTONIC));
         const auto lock = lock_session();
         // Microseconds, as candump's logs have them.
-        const Verdict verdict =
-            session().accept(can_record(from_kernel(frame)), floor<std::chrono::microseconds>(arrival));
+        const auto record = can_record(from_kernel(frame));
+        const Verdict verdict = hear({floor<std::chrono::microseconds>(arrival), record});
         if (verdict == Verdict::pose || verdict == Verdict::no_pose) publish();
         send(session().answer());
     }
@@ -82,11 +91,7 @@ bool CanLink::drain() {
 
 void CanLink::send(std::span<const std::byte> record) {
     if (record.empty()) return;
-    const auto reply = host::can_frame(record);
-    struct ::can_frame frame {};
-    frame.can_id = reply->id | (reply->extended ? CAN_EFF_FLAG : 0U);
-    frame.can_dlc = reply->size;
-    std::memcpy(frame.data, reply->data.data(), reply->size);
+    const struct ::can_frame frame = to_kernel(host::can_frame(record).value());
     count_reply(write(socket_.fd, &frame, sizeof frame) == sizeof frame);
 }
 

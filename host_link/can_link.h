@@ -1,9 +1,15 @@
 /// A live link to a CAN bus: a raw SocketCAN socket.
 #pragma once
 
+#include <linux/can.h>
+
 #include "host_link/live_link.h"
 
 namespace quadrig::host {
+
+/// Between our frames and Linux's, which has the identifier and the flags in one number of the host's byte order.
+CanFrame from_kernel(const struct ::can_frame& frame);
+struct ::can_frame to_kernel(const CanFrame& frame);
 
 class CanLink final : public LiveLink {
   public:

@@ -252,7 +252,7 @@ bool is_candump_log(const std::filesystem::path& path) {
     return false;
 }
 
-Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol) {
+Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol, bool whole) {
     Read read = is_candump_log(path) ? read_candump(path) : read_pcap(path);
     const std::pair<const FlowKey, FlowCount>* best = nullptr;
     std::uint64_t most = 0;
@@ -274,7 +274,7 @@ Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> 
     const FlowKey& key = best->first;
     capture.flow = key.interface.empty() ? Flow{text(key.source), text(key.destination), key.destination_port}
                                          : Flow{key.interface, {}, 0};
-    select(capture, read.flow_of, best->second.order);
+    if (!whole) select(capture, read.flow_of, best->second.order);
     return capture;
 }
 

@@ -63,6 +63,9 @@ bool is_candump_log(const std::filesystem::path& path);
 /// them is the Session's. Links: Ethernet (VLAN tags too), raw IP, Linux cooked 1 and 2, BSD loopback, SocketCAN. IPv4
 /// and IPv6; UDP checksums are not looked at. Throws std::runtime_error, with the file's name, where it cannot be read
 /// or holds no host.
-Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol = std::nullopt);
+///
+/// `whole`: all flows are taken together, as a link has heard them that recorded them.
+Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol = std::nullopt,
+                     bool whole = false);
 
 }  // namespace quadrig::host

@@ -50,6 +50,11 @@ bool LiveLink::take_newest(HostState& state) {
     return true;
 }
 
+Verdict LiveLink::hear(const Heard& heard) {
+    if (tap_) tap_(heard);
+    return session_->accept(heard.bytes, heard.arrival, heard.source);
+}
+
 void LiveLink::count_reply(bool sent) {
     (sent ? replies_sent_ : replies_failed_).fetch_add(1, std::memory_order_relaxed);
 }

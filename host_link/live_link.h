@@ -6,17 +6,20 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "host_link/host_state.h"
 #include "host_link/link_statistics.h"
 #include "host_link/link_url.h"
 #include "host_link/mailbox.h"
+#include "host_link/recording.h"
 #include "host_link/session.h"
 
 namespace quadrig::host {
@@ -47,6 +50,11 @@ class LiveLink {
     LiveLink(const LiveLink&) = delete;
     LiveLink& operator=(const LiveLink&) = delete;
 
+    /// Everything heard from now on is given to `tap` too, on the link's thread, in the order in which the session sees
+    /// it. Before start.
+    using Tap = std::function<void(const Heard&)>;
+    void record_to(Tap tap) { tap_ = std::move(tap); }
+
     /// Begins to receive. `options` come from session_options(url(), …). Once only.
     void start(const SessionOptions& options);
     /// Ends the thread; what was published stays. May be called twice.
@@ -54,6 +62,8 @@ class LiveLink {
 
     /// Whether something new came since the last call; `state` is written only then.
     bool take_newest(HostState& state);
+    /// How much the session had heard when it published the state last taken. The frame loop's.
+    [[nodiscard]] std::uint64_t heard() const { return latched_.heard; }
     /// Answers that are due once a frame, to the host that the state last taken came from.
     virtual void frame_begins(const FrameStatus&) {}
 
@@ -76,6 +86,7 @@ class LiveLink {
         HostState state;
         std::optional<ReplyContext> reply;
         Peer peer;
+        std::uint64_t heard = 0;
     };
 
     explicit LiveLink(LinkUrl url);
@@ -86,10 +97,13 @@ class LiveLink {
 
     /// Exclusive use of the session against statistics(); never the frame loop's.
     [[nodiscard]] std::unique_lock<std::mutex> lock_session() const { return std::unique_lock(session_mutex_); }
-    /// With the session locked.
+    /// With the session locked: folds it into the session, and tells the tap.
+    Verdict hear(const Heard& heard);
     Session& session() { return *session_; }
     void publish() { publish(Peer()); }
-    void publish(const Peer& peer) { mailbox_.publish({session_->state(), session_->reply_context(), peer}); }
+    void publish(const Peer& peer) {
+        mailbox_.publish({session_->state(), session_->reply_context(), peer, session_->statistics().datagrams});
+    }
 
     /// The frame loop's.
     [[nodiscard]] const News& latched() const { return latched_; }
@@ -100,6 +114,7 @@ class LiveLink {
   private:
     LinkUrl url_;
     Descriptor wake_;
+    Tap tap_;
     std::unique_ptr<Session> session_;
     mutable std::mutex session_mutex_;
     Mailbox<News> mailbox_;

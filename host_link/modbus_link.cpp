@@ -34,6 +34,7 @@ ModbusLink::ModbusLink(const LinkUrl& given)
     const socklen_t size = socket_address(url(), storage);
     if (bind(listening_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
     if (listen(listening_.fd, static_cast<int>(kMostClients)) != 0) fail("cannot listen");
+    own_port_ = port();
 }
 
 ModbusLink::~ModbusLink() {
@@ -64,14 +65,17 @@ void ModbusLink::receive() {
         if (waiting[0].revents != 0) return;
         auto next = waiting.begin() + 2;
         for (Client& client : clients_)
-            if ((next++)->revents != 0) hear(client);
+            if ((next++)->revents != 0) hear_client(client);
         clients_.remove_if([](const Client& client) { return client.gone; });
         if (waiting[1].revents != 0) admit();
     }
 }
 
 void ModbusLink::admit() {
-    const int socket = accept4(listening_.fd, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    const int socket =
+        accept4(listening_.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0) return;
     const Time now = clock_time(CLOCK_MONOTONIC);
     if (clients_.size() == kMostClients) {
@@ -87,10 +91,10 @@ void ModbusLink::admit() {
     }
     const int on = 1;
     setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    clients_.push_back({socket, connections_++, now, {}, false});
+    clients_.push_back({socket, connections_++, address, now, {}, false});
 }
 
-void ModbusLink::hear(Client& client) {
+void ModbusLink::hear_client(Client& client) {
     std::array<std::byte, 4096> bytes{};
     const auto size = recv(client.socket, bytes.data(), bytes.size(), 0);
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
@@ -100,7 +104,7 @@ void ModbusLink::hear(Client& client) {
     while (const auto frame = client.frames.next(stream)) {
         {
             const auto lock = lock_session();
-            const Verdict verdict = session().accept(*frame, client.heard, client.number);
+            const Verdict verdict = hear({client.heard, *frame, client.number, client.address, own_port_});
             if (verdict == Verdict::pose) publish();
         }
         if (!answer(client, *frame)) return let_go(client);

@@ -32,6 +32,7 @@ class ModbusLink final : public LiveLink {
     struct Client {
         int socket = -1;
         std::uint32_t number = 0;  ///< of all connections ever
+        sockaddr_storage address{};
         Time heard{};
         modbus::FrameBuffer frames;
         bool gone = false;
@@ -39,7 +40,7 @@ class ModbusLink final : public LiveLink {
 
     void receive() override;
     void admit();
-    void hear(Client& client);
+    void hear_client(Client& client);
     bool answer(Client& client, std::span<const std::byte> frame);
     void refresh_status();
     void let_go(Client& client);
@@ -49,6 +50,7 @@ class ModbusLink final : public LiveLink {
     _modbus_mapping_t* mapping_;
     std::list<Client> clients_;
     std::uint32_t connections_ = 0;
+    std::uint16_t own_port_ = 0;
     std::atomic<std::uint32_t> frame_{0}, misses_{0};
 };
 

@@ -77,12 +77,14 @@ void UdpLink::receive() {
 void UdpLink::accept_batch(Batch& batch, int count) {
     const Time realtime = clock_time(CLOCK_REALTIME);
     const Time monotonic = clock_time(CLOCK_MONOTONIC);
+    const std::uint16_t own_port = port();
     std::optional<std::size_t> newest;
     const auto lock = lock_session();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         msghdr& header = batch.messages[i].msg_hdr;
         const std::span datagram(batch.bytes.data() + i * kLargestDatagram, batch.messages[i].msg_len);
-        const Verdict verdict = session().accept(datagram, arrival_time(header, realtime, monotonic));
+        const Verdict verdict =
+            hear({arrival_time(header, realtime, monotonic), datagram, 0, batch.peers[i].address, own_port});
         batch.peers[i].size = header.msg_namelen;
         if (verdict == Verdict::pose || verdict == Verdict::no_pose) newest = i;
     }
@@ -90,7 +92,7 @@ void UdpLink::accept_batch(Batch& batch, int count) {
 }
 
 void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now) {
-    const auto& [state, reply, peer] = latched();
+    const auto& [state, reply, peer, heard] = latched();
     if (!reply || peer.size == 0) return;
     std::array<std::byte, cigi::StartOfFrame::kSize> packet{};
     const std::size_t size = start_of_frame(*reply, ig_frame, now, packet);

@@ -15,7 +15,7 @@ constexpr int kNoBus = 77;
 
 /// What happens on the bus, in one shell: a recorded second of flight is played to the program, and its identity asked.
 constexpr const char* kScript = R"(
-"$QUADRIG" run --link 'can://vcan0?node=9' --scene "$SCENE" --size 16x12 --threads 1 --report "$OUT/report.json" 2> "$OUT/err" &
+"$QUADRIG" run --link 'can://vcan0?node=9' --scene "$SCENE" --size 16x12 --threads 1 --frames 6000 --record "$OUT/heard.log" --report "$OUT/report.json" 2> "$OUT/err" &
 quadrig=$!
 for i in $(seq 200); do grep -q 'listens on interface vcan0' "$OUT/err" && break; sleep 0.05; done
 candump -L vcan0 > "$OUT/bus.log" & candump=$!
@@ -61,4 +61,14 @@ TEST_CASE(
     CHECK(link["last_pose"]["longitude"].get<double>() == Approx(-95.16395).margin(1e-4));
     CHECK(link["replies"].get<int>() >= 1);
     CHECK(text_of(out / "bus.log").find("081#0910001701010000") != std::string::npos);
+    const auto scene = std::string(std::getenv("SCENE"));
+    const Outcome again = quadrig_program(
+        {"replay", out / "heard.log", "--scene", scene, "--size", "16x12", "--fast", "--report", out / "again.json"});
+    INFO(again.err);
+    REQUIRE(again.status == 0);
+    const auto live = report_of(out / "report.json"), replayed = report_of(out / "again.json");
+    CHECK(replayed["links"][0]["frames"] == link["frames"]);
+    CHECK(replayed["frames"] == live["frames"]);
+    // Bit for bit holds for one instruction set: the small kernel may offer another.
+    if (live["machine"]["simd"] == replayed["machine"]["simd"]) CHECK(replayed["frame_hashes"] == live["frame_hashes"]);
 }

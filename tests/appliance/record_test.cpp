@@ -99,8 +99,7 @@ TEST_CASE("A Modbus host's live run is recorded, tshark reads it, and it gives t
     REQUIRE(rows.size() == 46);
     CHECK(rows[0][0] == "1");
     CHECK(rows[45] == std::vector<std::string>{"0", std::to_string(1 + 44 * 61), ""});
-    const auto poses =
-        host::test::tshark_fields(flight, {"modbus.func_code", "modbus.regval_uint16"});
+    const auto poses = host::test::tshark_fields(flight, {"modbus.func_code", "modbus.regval_uint16"});
     CHECK(poses[3][0] == "16");
     CHECK_THAT(poses[3][1], Catch::StartsWith("1,2,0,32,16455,41287,44564,31457,"));
 }

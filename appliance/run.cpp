@@ -12,6 +12,7 @@
 #include "appliance/painter.h"
 #include "appliance/run_options.h"
 #include "appliance/run_report.h"
+#include "appliance/scene_survey.h"
 #include "appliance/stop_signals.h"
 #include "config/scene_file.h"
 #include "display/frame_writer.h"
@@ -105,6 +106,9 @@ void run(const LiveOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
     const PictureSettings settings = picture_settings(given, options.overlay);
     watch_stop_signals();
+    // Links use these for as long as they run: they go after them.
+    std::optional<SceneSurvey> survey;
+    std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
     Painter painter(config::read_scene(*given.scene), settings);
     const Scene& scene = painter.scene();
@@ -118,7 +122,7 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
-    std::unique_ptr<host::Recorder> recorder;
+    survey.emplace(scene);
     if (!options.record.empty())
         recorder = std::make_unique<host::Recorder>(
             *hosts.front()->link,
@@ -129,6 +133,7 @@ void run(const LiveOptions& options) {
             HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
+        session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
         host->link->start(session);
     }
     painter.warm_up(standby_view(painter.image_plane()));

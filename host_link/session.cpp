@@ -18,13 +18,6 @@ constexpr double kAngleRounding = 1e-4;
 bool within(double value, double lowest, double highest) { return value >= lowest && value <= highest; }
 bool is_angle(double degrees, double limit) { return within(degrees, -limit - kAngleRounding, limit + kAngleRounding); }
 
-bool in_range(const GeodeticPosition& position, const Attitude& attitude) {
-    return within(position.latitude.value, -90.0, 90.0) &&
-           within(position.longitude.value, -180.0 - 1e-9, 180.0 + 1e-9) &&
-           within(position.altitude, kLowestAltitude, kHighestAltitude) && is_angle(attitude.heading.value, 360.0) &&
-           is_angle(attitude.pitch.value, 90.0) && is_angle(attitude.roll.value, 360.0);
-}
-
 Degrees heading_in_circle(Degrees heading) {
     const double turned = std::fmod(heading.value, 360.0);
     return {turned < 0.0 ? turned + 360.0 : turned};
@@ -50,6 +43,13 @@ cigi::IgMode ig_mode(Mode mode) {
 }
 
 }  // namespace
+
+bool in_range(const GeodeticPosition& position, const Attitude& attitude) {
+    return within(position.latitude.value, -90.0, 90.0) &&
+           within(position.longitude.value, -180.0 - 1e-9, 180.0 + 1e-9) &&
+           within(position.altitude, kLowestAltitude, kHighestAltitude) && is_angle(attitude.heading.value, 360.0) &&
+           is_angle(attitude.pitch.value, 90.0) && is_angle(attitude.roll.value, 360.0);
+}
 
 SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene_origin) {
     SessionOptions options;
@@ -89,6 +89,7 @@ Verdict Session::accept(std::span<const std::byte> datagram, Time arrival, std::
     ++statistics_.datagrams;
     statistics_.bytes += datagram.size();
     answer_size_ = 0;
+    response_count_ = 0;
     switch (options_.protocol) {
         case Protocol::cigi:
             return accept_cigi(datagram, arrival);
@@ -123,6 +124,7 @@ void Session::restart() {
     ++statistics_.restarts;
     cigi_clock_.restart();
     modbus_clock_.restart();
+    standing_count_ = 0;
     comparable_ = false;
 }
 
@@ -195,6 +197,7 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
         ReplyContext{message.order, ig_control.minor_version, ig_control.last_ig_frame.has_value(), ig_control.database,
                      state_.mode,   ig_control.host_frame};
     std::optional<GeodeticPose> pose;
+    bool asks = false;
     for (auto rest = message.packets; !rest.empty();) {
         const cigi::Packet packet = cigi::next_packet(rest);
         const auto as = [&]<class P>(P) { return cigi::decode<P>(packet.bytes, message.order); };
@@ -219,12 +222,25 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
             case cigi::AtmosphereControl::kId:
                 apply(as(cigi::AtmosphereControl{}));
                 break;
+            case cigi::HatHotRequest::kId:
+            case cigi::LosSegmentRequest::kId:
+            case cigi::LosVectorRequest::kId:
+                asks = true;
+                break;
             default:
                 break;
         }
     }
     const auto source_time = ig_control.timestamp_valid ? cigi_clock_.read(ig_control.timestamp) : std::nullopt;
-    return take(arrival, pose, source_time);
+    const Verdict verdict = take(arrival, pose, source_time);
+    // After the message's own pose: questions in the ownship's axes are about where it is now.
+    answer_standing(message);
+    for (auto rest = message.packets; asks && !rest.empty();) {
+        const cigi::Packet packet = cigi::next_packet(rest);
+        if (packet.id >= cigi::HatHotRequest::kId && packet.id <= cigi::LosVectorRequest::kId)
+            answer_request(packet, message);
+    }
+    return verdict;
 }
 
 }  // namespace quadrig::host

@@ -11,6 +11,7 @@
 
 #include "host_link/canaerospace_pose.h"
 #include "host_link/cigi.h"
+#include "host_link/cigi_query.h"
 #include "host_link/flightgear_fdm.h"
 #include "host_link/frame_order.h"
 #include "host_link/geodesy.h"
@@ -19,6 +20,7 @@
 #include "host_link/link_url.h"
 #include "host_link/modbus_pose.h"
 #include "host_link/source_clock.h"
+#include "host_link/survey.h"
 
 namespace quadrig::host {
 
@@ -34,6 +36,7 @@ struct SessionOptions {
     canaerospace::PoseSettings canaerospace;   ///< which messages make a pose
     modbus::PoseSettings modbus;               ///< where the registers are
     std::uint8_t can_node = kDefaultCanNode;   ///< under which CANaerospace's services find us
+    Surveyor surveyor;                         ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };
 
@@ -63,9 +66,14 @@ struct ReplyContext {
 std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time,
                            std::span<std::byte, cigi::StartOfFrame::kSize> out);
 
+/// Whether a pose is finite and in the ranges that host_link/README.md states.
+bool in_range(const GeodeticPosition& position, const Attitude& attitude);
+
 class Session {
   public:
     static constexpr std::size_t kMaxEntities = 256;
+    /// Answers to one message, and requests that are repeated.
+    static constexpr std::size_t kMostResponses = 64;
     /// Connections whose unfinished writes are kept; of more, those that wrote last.
     static constexpr std::size_t kMostModbusHosts = 8;
 
@@ -77,10 +85,20 @@ class Session {
     Verdict accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source = 0);
     /// Counts what a link refused before it was a datagram.
     void refuse(Reject reason) { reject(reason); }
+    /// Counts an answer that a link had no place for.
+    void drop_answer() { ++statistics_.answers_dropped; }
 
     /// What the protocol wants sent back at once for the datagram just given to accept: empty for most. A CAN frame is
     /// its LINKTYPE_CAN_SOCKETCAN record.
     [[nodiscard]] std::span<const std::byte> answer() const { return {answer_.data(), answer_size_}; }
+
+    /// CIGI packets that answer the requests of the datagram just given to accept, and those that were to be repeated:
+    /// to be sent behind the next Start Of Frame.
+    struct Response {
+        std::array<std::byte, cigi::kLargestResponse> bytes{};
+        std::size_t size = 0;
+    };
+    [[nodiscard]] std::span<const Response> responses() const { return {responses_.data(), response_count_}; }
 
     [[nodiscard]] const HostState& state() const { return state_; }
     [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
@@ -115,6 +133,23 @@ class Session {
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);
     void apply(const cigi::AtmosphereControl& packet);
+    struct LineRequest {
+        std::uint16_t id = 0;
+        bool segment = false, extended = false, response_entity = false;
+    };
+    std::optional<ScenePoint> point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id);
+    std::optional<SurveyHit> plumb(const GeodeticPosition& below);
+    void answer(const cigi::HatHotRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer(const cigi::LosSegmentRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer(const cigi::LosVectorRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, ByteOrder order,
+                     std::uint8_t frame);
+    bool answer_packet(const cigi::Packet& packet, ByteOrder order, std::uint8_t frame);
+    void answer_request(const cigi::Packet& packet, const cigi::Message& message);
+    void answer_standing(const cigi::Message& message);
+    static std::uint8_t frame_nibble(const cigi::IgControl& ig_control);
+    template <class P>
+    void respond(const P& response, ByteOrder order);
     bool is_our_view(std::uint16_t view, std::uint8_t group);
 
     SessionOptions options_;
@@ -142,6 +177,17 @@ class Session {
     TickClock modbus_clock_{kModbusTick};
     std::array<std::byte, kCanRecordSize> answer_{};
     std::size_t answer_size_ = 0;
+    std::array<Response, kMostResponses> responses_{};
+    std::size_t response_count_ = 0;
+    /// A request that is answered again every so many host frames.
+    struct Standing {
+        std::array<std::byte, cigi::LosSegmentRequest::kSize> packet{};
+        std::size_t size = 0;
+        ByteOrder order = ByteOrder::little;
+        std::uint32_t asked = 0;  ///< host frame
+    };
+    std::array<Standing, kMostResponses> standing_{};
+    std::size_t standing_count_ = 0;
     std::optional<std::uint16_t> view_;
     Window window_;
     struct Ephemeris {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -85,18 +86,38 @@ void UdpLink::accept_batch(Batch& batch, int count) {
         const std::span datagram(batch.bytes.data() + i * kLargestDatagram, batch.messages[i].msg_len);
         const Verdict verdict =
             hear({arrival_time(header, realtime, monotonic), datagram, 0, batch.peers[i].address, own_port});
+        queue(session().responses());
         batch.peers[i].size = header.msg_namelen;
         if (verdict == Verdict::pose || verdict == Verdict::no_pose) newest = i;
     }
     if (newest) publish(batch.peers[*newest]);
 }
 
+void UdpLink::queue(std::span<const Session::Response> responses) {
+    std::size_t next = queued_.load(std::memory_order_relaxed);
+    for (const Session::Response& response : responses) {
+        if (next - taken_.load(std::memory_order_acquire) == kMostWaiting) {
+            session().drop_answer();
+            continue;
+        }
+        waiting_[next++ % kMostWaiting] = response;
+    }
+    queued_.store(next, std::memory_order_release);
+}
+
 void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now) {
     const auto& [state, reply, peer, heard] = latched();
     if (!reply || peer.size == 0) return;
-    std::array<std::byte, cigi::StartOfFrame::kSize> packet{};
-    const std::size_t size = start_of_frame(*reply, ig_frame, now, packet);
-    const auto sent = sendto(socket_.fd, packet.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL,
+    std::size_t size = start_of_frame(*reply, ig_frame, now, std::span(message_).first<cigi::StartOfFrame::kSize>());
+    std::size_t next = taken_.load(std::memory_order_relaxed);
+    for (const std::size_t end = queued_.load(std::memory_order_acquire); next != end; ++next) {
+        const Session::Response& response = waiting_[next % kMostWaiting];
+        if (size + response.size > kLargestMessage) break;
+        std::memcpy(message_.data() + size, response.bytes.data(), response.size);
+        size += response.size;
+    }
+    taken_.store(next, std::memory_order_release);
+    const auto sent = sendto(socket_.fd, message_.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL,
                              reinterpret_cast<const sockaddr*>(&peer.address), peer.size);
     count_reply(sent == static_cast<ssize_t>(size));
 }

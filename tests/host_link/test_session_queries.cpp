@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "host_link/cigi_query.h"
 #include "host_link/session.h"
@@ -184,4 +185,33 @@ TEST_CASE("What cannot be asked is answered as invalid, and too much at once is 
     CHECK(host.session.accept(many, 5s) == Verdict::no_pose);
     CHECK(host.session.responses().size() == Session::kMostResponses);
     CHECK(host.session.statistics().answers_dropped > 0);
+}
+
+TEST_CASE("Damaged questions are refused, or answered with finite numbers") {
+    const std::uint64_t seed = std::random_device{}();
+    INFO("seed " << seed);
+    std::mt19937_64 random(seed);
+    Asking host;
+    const auto at = host.geodetic(0.0, 0.0, 80.0);
+    for (int i = 0; i < 20000; ++i) {
+        Bytes bytes = message(ByteOrder::big, ig_control(static_cast<std::uint32_t>(i)), ownship(at[0], at[1], at[2]),
+                              cigi::HatHotRequest{.request = 1, .kind = cigi::HeightKind::extended, .point = at},
+                              cigi::LosSegmentRequest{.request = 2, .extended = true, .source = at, .destination = at},
+                              cigi::LosVectorRequest{.request = 3, .extended = true, .most = 1e4F, .source = at});
+        for (std::size_t k = random() % 6; k > 0; --k)
+            bytes[24 + random() % (bytes.size() - 24)] = static_cast<std::byte>(random());
+        host.session.accept(bytes, i * 16ms);
+        for (const Session::Response& response : host.session.responses()) {
+            if (response.bytes[0] == std::byte{cigi::HatHotExtendedResponse::kId}) {
+                const auto answer = cigi::decode<cigi::HatHotExtendedResponse>(response.bytes, ByteOrder::big);
+                REQUIRE(std::isfinite(answer.of_terrain + answer.above_terrain));
+                REQUIRE(std::isfinite(answer.normal_azimuth + answer.normal_elevation));
+            }
+            if (response.bytes[0] == std::byte{cigi::LosExtendedResponse::kId}) {
+                const auto answer = cigi::decode<cigi::LosExtendedResponse>(response.bytes, ByteOrder::big);
+                REQUIRE(std::isfinite(answer.range + answer.point[0] + answer.point[1] + answer.point[2]));
+            }
+        }
+    }
+    CHECK(host.session.statistics().frames > 1000);
 }

@@ -21,10 +21,11 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The four bytes that pcap (both byte orders, micro- and nanoseconds) and pcapng files begin with.
+/// A candump log, or the four bytes that pcap (both byte orders, micro- and nanoseconds) and pcapng files begin with.
 bool is_recording(const Path& file) {
     const std::string extension = file.extension().string();
     if (extension == ".pcap" || extension == ".pcapng") return true;
+    if (host::is_candump_log(file)) return true;
     std::array<char, 4> begin{};
     std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
     for (const std::string_view magic :
@@ -77,8 +78,7 @@ void check_recording(const Path& file) {
     Playback playback(capture, options);
     playback.state_at(playback.end());
     const host::LinkStatistics& counts = playback.statistics();
-    std::cout << "recording:   " << (capture.protocol == host::Protocol::cigi ? "CIGI 3" : "FlightGear FDM") << ", "
-              << text(capture.flow) << '\n'
+    std::cout << "recording:   " << title_of(capture.protocol) << ", " << text(capture.flow) << '\n'
               << "flight:      " << counts.frames << " poses in " << std::fixed << std::setprecision(3)
               << std::chrono::duration<double>(playback.end() - playback.begin()).count() << " s; " << counts.gaps.count
               << " gaps, the longest interval " << std::chrono::duration<double>(counts.gaps.longest).count() << " s\n";
@@ -89,8 +89,8 @@ void check_recording(const Path& file) {
     print_counts("packets:     ", packets_by_name(counts));
     print_counts("rejected:    ", rejected_by_reason(counts));
     std::cout << "in the file: " << capture.counts.packets << " packets; " << capture.counts.other_flow
-              << " of other flows, " << capture.counts.not_udp << " not UDP, " << capture.counts.fragments
-              << " fragments, " << capture.counts.damaged << " damaged\n";
+              << " of other flows, " << capture.counts.not_udp << " other than UDP and Modbus, "
+              << capture.counts.fragments << " fragments, " << capture.counts.damaged << " damaged\n";
     if (capture.truncated) throw std::runtime_error(file.string() + ": ends early: " + *capture.truncated);
 }
 

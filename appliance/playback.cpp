@@ -25,11 +25,32 @@ Playback::Playback(const host::Capture& capture, const host::SessionOptions& opt
 
 host::Verdict Playback::play_next() {
     const host::Capture::Datagram& datagram = capture_.datagrams[next_++];
-    return session_.accept(capture_.payload(datagram), datagram.captured);
+    return session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
 }
 
 const host::HostState& Playback::state_at(host::Time time) {
     while (next_ < capture_.datagrams.size() && capture_.datagrams[next_].captured <= time) play_next();
+    return session_.state();
+}
+
+RunAgain::RunAgain(const host::Capture& capture, const host::SessionOptions& options,
+                   const host::RecordedFrames& frames)
+    : capture_(capture), frames_(frames), session_(options) {
+    const std::uint64_t heard = frames.frames.empty() ? 0 : frames.frames.back().heard;
+    if (heard > capture.datagrams.size())
+        throw std::runtime_error("the recorded frames have seen " + std::to_string(heard) +
+                                 " datagrams, the recording has " + std::to_string(capture.datagrams.size()));
+}
+
+void RunAgain::play_to(std::uint64_t heard) {
+    for (; next_ < heard; ++next_) {
+        const host::Capture::Datagram& datagram = capture_.datagrams[next_];
+        session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
+    }
+}
+
+const host::HostState& RunAgain::state_at(std::uint64_t index) {
+    play_to(frames_.frames[index].heard);
     return session_.state();
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "host_link/capture.h"
+#include "host_link/recorded_frames.h"
 #include "host_link/session.h"
 
 namespace quadrig::appliance {
@@ -31,6 +33,29 @@ class Playback {
     host::Session session_;
     std::size_t next_ = 0;
     host::Time begin_{}, end_{};
+};
+
+/// A live run once more, frame by frame: each sees just what it saw then.
+class RunAgain {
+  public:
+    /// Both must outlive this. Throws std::runtime_error where the recording lacks what its frames have seen.
+    RunAgain(const host::Capture& capture, const host::SessionOptions& options, const host::RecordedFrames& frames);
+
+    [[nodiscard]] std::uint64_t size() const { return frames_.frames.size(); }
+    [[nodiscard]] const host::RecordedFrame& frame(std::uint64_t index) const { return frames_.frames[index]; }
+    /// Frames come in their order.
+    const host::HostState& state_at(std::uint64_t index);
+    /// What came after the last frame.
+    void play_rest() { play_to(capture_.datagrams.size()); }
+    [[nodiscard]] const host::LinkStatistics& statistics() const { return session_.statistics(); }
+
+  private:
+    void play_to(std::uint64_t heard);
+
+    const host::Capture& capture_;
+    const host::RecordedFrames& frames_;
+    host::Session session_;
+    std::size_t next_ = 0;
 };
 
 }  // namespace quadrig::appliance

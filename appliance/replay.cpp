@@ -1,6 +1,7 @@
 /// `quadrig replay`: a recorded flight becomes pictures, the same ones every time.
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "appliance/run_report.h"
 #include "appliance/stop_signals.h"
 #include "config/scene_file.h"
+#include "host_link/recorded_frames.h"
 
 namespace quadrig::appliance {
 namespace {
@@ -26,6 +28,13 @@ struct ReplayOptions : RunOptions {
     bool fifo = false;
 };
 
+/// Of `all`, those asked for.
+std::uint64_t frames_wanted(const ReplayOptions& options, const scheduler::FrameRate& rate, std::uint64_t all) {
+    const std::uint64_t wanted =
+        options.duration ? scheduler::first_frame_from(rate, *options.duration) : options.frames.value_or(all);
+    return std::min(all, wanted);
+}
+
 /// Until the recording ends, or as asked for. Capture times are only numbers in a file: without a limit, those that
 /// would run for days are refused.
 std::uint64_t frames_to_draw(const ReplayOptions& options, const scheduler::FrameRate& rate, const Playback& playback) {
@@ -36,42 +45,66 @@ std::uint64_t frames_to_draw(const ReplayOptions& options, const scheduler::Fram
                                  std::to_string(std::chrono::duration_cast<std::chrono::hours>(length).count()) +
                                  " hours; say how much of it with --frames or --seconds");
     const std::uint64_t all = scheduler::first_frame_from(rate, length + 1ns);
-    const std::uint64_t wanted =
-        options.duration ? scheduler::first_frame_from(rate, *options.duration) : options.frames.value_or(all);
-    return std::min(all, wanted);
+    return frames_wanted(options, rate, all);
 }
 
-/// Frame k shows the flight at begin + k / rate of the recording's clock, whenever it is drawn.
-scheduler::FrameHooks hooks_for(Playback& playback, HostEye& eye, Painter& painter, Outlets& outlets) {
+/// What a frame of the loop shows.
+struct Shown {
+    const host::HostState* state = nullptr;
+    scheduler::Time time{};    ///< by the recording's clock
+    std::uint64_t number = 0;  ///< as the picture is called
+};
+using ShownAt = std::function<Shown(std::uint64_t)>;
+
+scheduler::FrameHooks hooks_for(const ShownAt& at, HostEye& eye, Painter& painter, Outlets& outlets, Shown& shown) {
     const scheduler::FrameRate rate = painter.settings().rate;
-    const auto draw = [&playback, &eye, &painter, rate,
+    const auto draw = [&at, &eye, &painter, &shown, rate, standby = standby_view(painter.image_plane()),
                        next = std::uint64_t{0}](const scheduler::FrameTick& tick) mutable {
         // Frames left out for being late are latched all the same, so that the next one looks as it always does.
         std::optional<View> view;
         for (; next <= tick.number; ++next) {
-            const scheduler::Time time = playback.begin() + scheduler::frame_time(rate, next);
-            view = eye.view(playback.state_at(time), time);
+            shown = at(next);
+            view = eye.view(*shown.state, shown.time);
         }
+        const scheduler::Time elapsed = scheduler::frame_time(rate, shown.number);
         scheduler::DrawnFrame drawn;
-        drawn.stages = painter.paint(*view, eye.environment(playback.state(), tick.elapsed), tick.number);
-        if (const auto arrival = eye.fresh_arrival(playback.state()))
-            drawn.input_age = playback.begin() + tick.elapsed + (tick.started - tick.due) - *arrival;
+        if (!view) {
+            Environment environment;
+            environment.seconds = std::chrono::duration<double>(elapsed).count();
+            drawn.stages = painter.paint(standby, environment, shown.number);
+            return drawn;
+        }
+        drawn.stages = painter.paint(*view, eye.environment(*shown.state, elapsed), shown.number);
+        if (const auto arrival = eye.fresh_arrival(*shown.state))
+            drawn.input_age = shown.time + (tick.started - tick.due) - *arrival;
         return drawn;
     };
     return {[&outlets] { return stop_requested() || outlets.has_error(); }, draw,
-            [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
+            [&](const scheduler::FrameTick&) { outlets.hand_over(painter.image(), shown.number); }};
+}
+
+/// The frames of the live run that made the recording, where it left them behind and they fit what is asked for.
+std::optional<host::RecordedFrames> recorded_frames(const ReplayOptions& options, const scheduler::FrameRate& rate) {
+    auto frames = host::read_recorded_frames(options.recording);
+    if (!frames || frames->frames.empty()) return std::nullopt;
+    if (frames->numbering == host::FrameNumbering{rate.numerator, rate.denominator}) return frames;
+    std::cerr << "quadrig: " << options.recording.string()
+              << ": its live run had another rate; played by the times of its datagrams\n";
+    return std::nullopt;
 }
 
 void replay(const ReplayOptions& options) {
     if (!options.settings.scene) throw WrongUse("--scene is missing: what is there to see?");
-    if (options.link && options.link->port)
-        throw WrongUse("link '" + options.link->text + "': a recording's is named without an address, cigi: or fdm:");
+    if (options.link && options.link->live)
+        throw WrongUse("link '" + options.link->text +
+                       "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");
     watch_stop_signals();
     PictureSettings settings = picture_settings(options, options.settings);
     // As fast as frames can be drawn there is no time to be short of, and the same frames are to come every time.
     if (options.fast) settings.automatic = false;
-    const host::Capture capture =
-        read_capture(options.recording, options.link ? std::optional(options.link->protocol) : std::nullopt);
+    const auto run = recorded_frames(options, settings.rate);
+    const host::Capture capture = read_capture(
+        options.recording, options.link ? std::optional(options.link->protocol) : std::nullopt, run.has_value());
     if (capture.truncated)
         std::cerr << "quadrig: " << options.recording.string() << ": ends early (" << *capture.truncated
                   << "); played up to there\n";
@@ -81,10 +114,27 @@ void replay(const ReplayOptions& options) {
         options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
     host::SessionOptions session = session_options(link, scene.origin);
     session.default_window = window_of(painter.image_plane());
-    Playback playback(capture, session);
+    std::optional<RunAgain> again;
+    std::optional<Playback> playback;
+    ShownAt shown_at;
+    if (run) {
+        again.emplace(capture, session, *run);
+        shown_at = [&again](std::uint64_t index) {
+            const host::RecordedFrame& frame = again->frame(index);
+            return Shown{&again->state_at(index), frame.due, frame.number};
+        };
+    } else {
+        // Frame k shows the flight at begin + k / rate of the recording's clock, whenever it is drawn.
+        playback.emplace(capture, session);
+        shown_at = [&playback, rate = settings.rate](std::uint64_t index) {
+            const scheduler::Time time = playback->begin() + scheduler::frame_time(rate, index);
+            return Shown{&playback->state_at(time), time, index};
+        };
+    }
     HostEye eye({painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
 
-    const std::uint64_t frames = frames_to_draw(options, settings.rate, playback);
+    const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
+                                       : frames_to_draw(options, settings.rate, *playback);
     Outlets outlets({options.settings.sinks,
                      {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
                      options.fast ? display::WhenFull::wait : display::WhenFull::drop,
@@ -92,7 +142,8 @@ void replay(const ReplayOptions& options) {
                      frames,
                      options.contact_sheet});
     painter.warm_up(standby_view(painter.image_plane()));
-    const scheduler::FrameHooks hooks = hooks_for(playback, eye, painter, outlets);
+    Shown shown;
+    const scheduler::FrameHooks hooks = hooks_for(shown_at, eye, painter, outlets, shown);
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
     // Frames are counted by their numbers, so that one left out for being late is not drawn after the end.
@@ -102,8 +153,11 @@ void replay(const ReplayOptions& options) {
     else
         run_in_real_time(settings.rate, length, options.fifo, hooks, record, report);
 
-    if (!options.frames && !options.duration && !stop_requested()) playback.state_at(playback.end());
-    nlohmann::ordered_json told = link_report(link.text, playback.statistics());
+    if (!options.frames && !options.duration && !stop_requested()) {
+        if (again) again->play_rest();
+        if (playback) playback->state_at(playback->end());
+    }
+    nlohmann::ordered_json told = link_report(link.text, again ? again->statistics() : playback->statistics());
     told["recording"] = options.recording.string();
     told["flow"] = text(capture.flow);
     if (capture.truncated) told["truncated"] = *capture.truncated;
@@ -112,10 +166,16 @@ void replay(const ReplayOptions& options) {
 }
 
 constexpr const char* kNotes =
-    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP. Of its flows the one with the most\n"
-    "host's datagrams is played. Frame k shows the flight k/HZ seconds after its first pose, smoothed between the\n"
-    "host's samples: in real time and with --fast, with any number of threads, frame k is the same picture. In real\n"
-    "time a frame that is late is left out, and the one before it held; the report counts them.\n\n"
+    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
+    "a\n"
+    "log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ "
+    "seconds\n"
+    "after its first pose, smoothed between the host's samples: in real time and with --fast, with any number of "
+    "threads,\n"
+    "frame k is the same picture. In real time a frame that is late is left out, and the one before it held; the "
+    "report\n"
+    "counts them. What 'quadrig run --record' wrote is shown frame by frame as it was in that run, at the same "
+    "rate.\n\n"
     "Examples:\n"
     "  quadrig replay config/traces/netfdm-c172-takeoff.pcap --scene config/scenes/takeoff.toml --fast \\\n"
     "      --sink y4m:takeoff.y4m --contact-sheet takeoff.png --report takeoff.json\n"
@@ -128,10 +188,10 @@ void add_replay(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("replay", "Play a recorded flight through the image generator");
     const auto options = std::make_shared<ReplayOptions>();
     command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
-    add_option(
-        command, "--link", options->link, read_link,
-        "The recording's protocol, cigi: or fdm:, with options such as\ncigi:?ownship=3 (default: what it holds)",
-        "URL");
+    add_option(command, "--link", options->link, read_link,
+               "The recording's protocol, cigi:, fdm:, can: or modbus:,\nwith options such as\ncigi:?ownship=3 "
+               "(default: what it holds)",
+               "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
     auto* fast = command.add_flag("--fast", options->fast,

@@ -12,23 +12,26 @@
 #include "appliance/painter.h"
 #include "appliance/run_options.h"
 #include "appliance/run_report.h"
+#include "appliance/scene_survey.h"
 #include "appliance/stop_signals.h"
 #include "config/scene_file.h"
 #include "display/frame_writer.h"
-#include "host_link/udp_link.h"
+#include "host_link/live_link.h"
+#include "host_link/recorder.h"
 
 namespace quadrig::appliance {
 namespace {
 
 struct LiveOptions : RunOptions {
     std::filesystem::path appliance;
+    std::filesystem::path record;
     bool fifo = false;
 };
 
 /// A link, and what is known of the host at its other end.
 struct LiveHost {
-    explicit LiveHost(const host::LinkUrl& url) : link(url) {}
-    host::UdpLink link;
+    explicit LiveHost(const host::LinkUrl& url) : link(open_link(url)) {}
+    std::unique_ptr<host::LiveLink> link;
     host::HostState state;
     std::optional<HostEye> eye;
     std::optional<View> view;
@@ -47,12 +50,15 @@ LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
     return latest;
 }
 
-scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets) {
-    const auto draw = [&hosts, &painter,
+scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets,
+                                const scheduler::FrameRecord& record, host::Recorder* recorder) {
+    const auto draw = [&hosts, &painter, &record, recorder,
                        standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
         for (const auto& host : hosts) {
-            host->link.take_newest(host->state);
-            host->link.send_start_of_frame(static_cast<std::uint32_t>(tick.number), tick.started);
+            host->link->take_newest(host->state);
+            if (recorder != nullptr) recorder->frame(tick.number, tick.due, host->link->heard());
+            host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started,
+                                      static_cast<std::uint32_t>(record.deadline_misses)});
             host->view = host->eye->view(host->state, tick.due);
         }
         scheduler::DrawnFrame drawn;
@@ -75,7 +81,7 @@ LiveHosts listen(const std::vector<host::LinkUrl>& links) {
     LiveHosts hosts;
     for (const host::LinkUrl& url : links) {
         hosts.push_back(std::make_unique<LiveHost>(url));
-        std::cerr << "quadrig: " << url.text << " listens on port " << hosts.back()->link.port() << '\n';
+        std::cerr << "quadrig: " << url.text << " listens on " << hosts.back()->link->place() << '\n';
     }
     return hosts;
 }
@@ -89,7 +95,10 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     if (settings.links.empty())
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     for (const host::LinkUrl& url : settings.links)
-        if (!url.port) throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT");
+        if (!url.live)
+            throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
+    if (!options.record.empty() && settings.links.size() != 1)
+        throw WrongUse("--record takes one link: a recording is one host's");
     return settings;
 }
 
@@ -97,6 +106,9 @@ void run(const LiveOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
     const PictureSettings settings = picture_settings(options, given);
     watch_stop_signals();
+    // Links use these for as long as they run: they go after them.
+    std::optional<SceneSurvey> survey;
+    std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
     Painter painter(config::read_scene(*given.scene), settings);
     const Scene& scene = painter.scene();
@@ -110,33 +122,45 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
+    survey.emplace(scene);
+    if (!options.record.empty())
+        recorder = std::make_unique<host::Recorder>(
+            *hosts.front()->link,
+            host::Recorder::Settings{options.record,
+                                     host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
     for (const auto& host : hosts) {
         host->eye.emplace(
             HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
-        host::SessionOptions session = session_options(host->link.url(), scene.origin);
+        host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
-        host->link.start(session);
+        session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
+        host->link->start(session);
     }
     painter.warm_up(standby_view(painter.image_plane()));
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
-    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets), record, report);
+    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets, record, recorder.get()),
+                     record, report);
 
     for (const auto& host : hosts) {
-        host->link.stop();
-        nlohmann::ordered_json told = link_report(host->link.url().text, host->link.statistics());
-        told["port"] = host->link.port();
-        told["replies"] = host->link.replies_sent();
-        told["replies_failed"] = host->link.replies_failed();
+        host->link->stop();
+        nlohmann::ordered_json told = link_report(host->link->url().text, host->link->statistics());
+        if (host->link->port() != 0) told["port"] = host->link->port();
+        told["replies"] = host->link->replies_sent();
+        told["replies_failed"] = host->link->replies_failed();
+        if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
         report.links.push_back(std::move(told));
     }
     finish_report(report, record, painter, outlets, options.report);
+    if (recorder) recorder->finish();
 }
 
 constexpr const char* kNotes =
     "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
-    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT and fdm://ADDRESS:PORT; say\n"
-    "0.0.0.0 to be heard beyond this machine. Of several hosts the first that was heard within a second drives.\n"
+    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\n"
+    "can://INTERFACE and modbus://ADDRESS:PORT; say 0.0.0.0 to be heard beyond this machine. Of several hosts the "
+    "first that was heard within a "
+    "second drives.\n"
     "SIGINT (control-C) and SIGTERM end the run with its report.\n\n"
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
@@ -153,12 +177,14 @@ void add_run(CLI::App& program, Action& action) {
     const auto options = std::make_shared<LiveOptions>();
     command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
         ->option_text("[APPLIANCE.toml]");
-    add_list_option(
-        command, "--link", options->settings.links, read_link,
-        "Where a host is listened to: cigi://ADDRESS:PORT or\nfdm://ADDRESS:PORT (required; may be given again)",
-        "URL");
+    add_list_option(command, "--link", options->settings.links, read_link,
+                    "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT or can://INTERFACE "
+                    "(required; may be\ngiven again)",
+                    "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
+    command.add_option("--record", options->record, "Write what the host sends into a recording (one link only)")
+        ->option_text("FILE");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");
     command.footer(kNotes);
     command.callback([options, &action] { action = [options] { run(*options); }; });

@@ -52,7 +52,8 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
               {"gaps",
                {{"count", statistics.gaps.count},
                 {"longest_ms", std::chrono::duration<double, std::milli>(statistics.gaps.longest).count()}}},
-              {"other_entities", statistics.other_entities}};
+              {"other_entities", statistics.other_entities},
+              {"answers_dropped", statistics.answers_dropped}};
     if (statistics.first_pose) json["first_pose"] = json_of(*statistics.first_pose);
     if (statistics.last_pose) json["last_pose"] = json_of(*statistics.last_pose);
     return json;

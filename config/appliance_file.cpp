@@ -23,7 +23,7 @@ constexpr NumberRule kThreads{"a whole number in 1..1024", [](double x) { return
 host::LinkUrl link_from(const TomlSection& section, std::size_t index, const std::string& text) {
     try {
         host::LinkUrl url = host::parse_link_url(text);
-        if (!url.port) section.refuse("links", index, "a link with ADDRESS:PORT", "\"" + text + "\"");
+        if (!url.live) section.refuse("links", index, "a link with ADDRESS:PORT", "\"" + text + "\"");
         return url;
     } catch (const host::LinkUrlError& error) {
         section.refuse("links", index, "a link", "one that cannot be understood: " + std::string(error.what()));

@@ -1,8 +1,8 @@
 #include "host_link/cigi.h"
 
 #include <array>
-#include <concepts>
-#include <type_traits>
+
+#include "host_link/cigi_codec.h"
 
 namespace quadrig::host::cigi {
 
@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kHeaderSize = 2;
 constexpr std::size_t kSizeStep = 8;
-constexpr std::uint16_t kByteSwap = 0x8000;
 constexpr std::uint8_t kFirstUserId = 201;
 
 struct Kind {
@@ -125,9 +124,6 @@ std::optional<Reject> packets_fault(std::span<const std::byte> rest) {
     }
     return std::nullopt;
 }
-
-template <class T, class P>
-concept Is = std::same_as<std::remove_const_t<T>, P>;
 
 // Each layout is told once, for Reader and for Writer: byte offsets from the start of the packet, bits from the lowest.
 

@@ -19,6 +19,13 @@ ScenePose SceneFrame::pose(const GeodeticPosition& position, const Attitude& att
     return pose;
 }
 
+GeodeticPosition SceneFrame::geodetic(const ScenePoint& point) const {
+    GeodeticPosition position;
+    const glm::dvec3& p = point.metres;
+    local_.Reverse(p.x, p.y, p.z, position.latitude.value, position.longitude.value, position.altitude);
+    return position;
+}
+
 ScenePose eye_pose(const ScenePose& body, const ViewMount& mount) {
     const glm::dmat3 eye_from_body = eye_from_scene_rotation(mount.attitude);
     return {{body.position.metres + glm::transpose(body.eye_from_scene) * mount.offset},

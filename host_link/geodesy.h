@@ -20,6 +20,9 @@ class SceneFrame {
     /// degrees a kilometre. Exact to nanometres and 1e-15 rad (GeographicLib). Does not allocate.
     ScenePose pose(const GeodeticPosition& position, const Attitude& attitude);
 
+    /// Where a scene point is on the earth.
+    [[nodiscard]] GeodeticPosition geodetic(const ScenePoint& point) const;
+
   private:
     GeographicLib::LocalCartesian local_;
     std::vector<double> scene_from_level_;  ///< nine numbers, row-major: as GeographicLib wants it

@@ -13,6 +13,12 @@ namespace quadrig::host {
 /// Time since the epoch of some clock: a receiver's CLOCK_MONOTONIC, a capture file's, or the host's own.
 using Time = std::chrono::nanoseconds;
 
+/// A pose as protocols tell it: WGS-84, the attitude in the local level frame at that position.
+struct GeodeticPose {
+    GeodeticPosition position;
+    Attitude attitude;
+};
+
 /// One pose as the host sent it, with both of its times.
 struct PoseSample {
     GeodeticPosition position;        ///< WGS-84, the link's datum offset applied
@@ -47,6 +53,7 @@ struct HostState {
     bool smoothing = true;              ///< host asks for motion smoothing (CIGI 3.3; on for protocols that cannot say)
     std::optional<PoseSample> pose;     ///< newest pose of the ownship
     std::optional<PoseSample> earlier;  ///< the one accepted before it
+    std::optional<glm::dvec3> velocity;  ///< m/s east, north, up at the ownship, where the host says so
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
     std::optional<double> visibility;         ///< m, meteorological optical range

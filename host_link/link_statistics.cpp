@@ -3,15 +3,26 @@
 #include <algorithm>
 #include <numeric>
 
+#include "host_link/canaerospace.h"
 #include "host_link/cigi.h"
+#include "host_link/modbus.h"
 
 namespace quadrig::host {
 
 namespace {
 
 std::string_view name_of_packet(Protocol protocol, std::uint8_t kind) {
-    if (protocol == Protocol::cigi) return cigi::packet_name(kind);
-    return kind == 24 ? "net_fdm_24" : "net_fdm_25";
+    switch (protocol) {
+        case Protocol::cigi:
+            return cigi::packet_name(kind);
+        case Protocol::flightgear_fdm:
+            return kind == 24 ? "net_fdm_24" : "net_fdm_25";
+        case Protocol::canaerospace:
+            return canaerospace::parameter_at(kind).name;
+        case Protocol::modbus:
+            return modbus::name_of(modbus::Function{kind});
+    }
+    return "unknown";
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ std::optional<Number> number(std::string_view text) {
 Protocol protocol_of(const LinkUrl& url, std::string_view scheme) {
     if (scheme == "cigi") return Protocol::cigi;
     if (scheme == "fdm") return Protocol::flightgear_fdm;
-    if (scheme == "can" || scheme == "modbus") fail(url, std::string(scheme) + " links are not supported yet");
-    fail(url, "unknown scheme; known are cigi: and fdm:");
+    if (scheme == "can") return Protocol::canaerospace;
+    if (scheme == "modbus") return Protocol::modbus;
+    fail(url, "unknown scheme; known are cigi:, fdm:, can: and modbus:");
 }
 
 bool is_numeric_address(int family, const std::string& address) {
@@ -58,7 +59,17 @@ std::string address_of(const LinkUrl& url, std::string_view text) {
     return std::string(text);
 }
 
+void set_interface(LinkUrl& url, std::string_view name) {
+    // As Linux has it: IFNAMSIZ with its final zero.
+    constexpr std::size_t kLongestName = 15;
+    if (name.empty() || name.size() > kLongestName || name.find_first_of(" /:") != std::string_view::npos)
+        fail(url, "no CAN interface; give its name, for example can://can0");
+    url.address = name;
+}
+
 void set_endpoint(LinkUrl& url, std::string_view endpoint) {
+    url.live = true;
+    if (url.protocol == Protocol::canaerospace) return set_interface(url, endpoint);
     const auto colon = endpoint.rfind(':');
     const auto bracket = endpoint.rfind(']');
     if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
@@ -75,32 +86,91 @@ void check_version(const LinkUrl& url, std::string_view value) {
     fail(url, "unknown CIGI version '" + std::string(value) + "'; known is 3.3");
 }
 
-std::uint16_t id_of(const LinkUrl& url, std::string_view key, std::string_view value) {
-    const auto id = number<std::uint16_t>(value);
-    if (!id) fail(url, std::string(key) + " is a number from 0 to 65535, not '" + std::string(value) + "'");
-    return *id;
+template <class Number>
+Number whole_in(const LinkUrl& url, std::string_view key, std::string_view value, unsigned least, unsigned most) {
+    const auto whole = number<unsigned>(value);
+    if (!whole || *whole < least || *whole > most)
+        fail(url, std::string(key) + " is a number from " + std::to_string(least) + " to " + std::to_string(most) +
+                      ", not '" + std::string(value) + "'");
+    return static_cast<Number>(*whole);
+}
+
+canaerospace::PositionSource position_of(const LinkUrl& url, std::string_view value) {
+    using enum canaerospace::PositionSource;
+    if (value == "gps") return gps;
+    if (value == "ins") return ins;
+    if (value == "auxiliary") return auxiliary;
+    fail(url, "position is gps, ins or auxiliary, not '" + std::string(value) + "'");
+}
+
+bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    if (key == "version")
+        check_version(url, value);
+    else if (key == "ownship")
+        url.ownship = whole_in<std::uint16_t>(url, key, value, 0, 65535);
+    else if (key == "view")
+        url.view = whole_in<std::uint16_t>(url, key, value, 0, 65535);
+    else
+        return false;
+    return true;
+}
+
+bool set_can_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    if (key == "position")
+        url.canaerospace.position = position_of(url, value);
+    else if (key == "commit")
+        url.canaerospace.commit = whole_in<std::uint16_t>(url, key, value, 0, 2047);
+    else if (key == "channel")
+        url.canaerospace.channel = whole_in<std::uint8_t>(url, key, value, 0, 255);
+    else if (key == "timeout")
+        url.canaerospace.timeout = std::chrono::milliseconds(whole_in<int>(url, key, value, 1, 60000));
+    else if (key == "node")
+        url.can_node = whole_in<std::uint8_t>(url, key, value, 1, 255);
+    else
+        return false;
+    return true;
+}
+
+modbus::WordOrder word_order_of(const LinkUrl& url, std::string_view value) {
+    if (value == "abcd") return {false, false};
+    if (value == "cdab") return {true, false};
+    if (value == "badc") return {false, true};
+    if (value == "dcba") return {true, true};
+    fail(url, "word_order is abcd, cdab, badc or dcba, not '" + std::string(value) + "'");
+}
+
+bool set_modbus_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    if (key == "base")
+        url.modbus.base = whole_in<std::uint16_t>(url, key, value, 0, 65536 - modbus::kHoldingRegisters);
+    else if (key == "word_order")
+        url.modbus.order = word_order_of(url, value);
+    else
+        return false;
+    return true;
 }
 
 void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
-    const bool cigi = url.protocol == Protocol::cigi;
-    if (cigi && key == "version") {
-        check_version(url, value);
-    } else if (cigi && key == "ownship") {
-        url.ownship = id_of(url, key, value);
-    } else if (cigi && key == "view") {
-        url.view = id_of(url, key, value);
-    } else if (key == "altitude_offset") {
-        url.altitude_offset = number<double>(value);
-        if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
-            fail(url, "altitude_offset is a number of metres");
-    } else {
-        fail(url, "unknown option '" + std::string(key) + "'");
-    }
+    if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
+    if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
+    if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;
+    if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
+    url.altitude_offset = number<double>(value);
+    if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
+        fail(url, "altitude_offset is a number of metres");
 }
 
 }  // namespace
 
-std::string_view name_of(Protocol protocol) { return protocol == Protocol::cigi ? "cigi" : "fdm"; }
+std::string_view name_of(Protocol protocol) {
+    static constexpr std::array<std::string_view, kProtocolCount> kNames{"cigi", "fdm", "can", "modbus"};
+    return kNames[static_cast<std::size_t>(protocol)];
+}
+
+std::string_view title_of(Protocol protocol) {
+    static constexpr std::array<std::string_view, kProtocolCount> kTitles{"CIGI 3", "FlightGear FDM", "CANaerospace",
+                                                                          "Modbus"};
+    return kTitles[static_cast<std::size_t>(protocol)];
+}
 
 LinkUrl parse_link_url(std::string_view text) {
     LinkUrl url;

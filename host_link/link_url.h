@@ -1,4 +1,6 @@
-/// Links as users name them: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT, and for a recording just cigi: or fdm:.
+/// Links as users name them: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT, can://INTERFACE, modbus://ADDRESS:PORT, and for a
+/// recording just
+/// cigi:, fdm:, can: or modbus:.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +9,18 @@
 #include <string>
 #include <string_view>
 
+#include "host_link/canaerospace_pose.h"
+#include "host_link/modbus_pose.h"
+
 namespace quadrig::host {
 
-enum class Protocol : std::uint8_t { cigi, flightgear_fdm };
+enum class Protocol : std::uint8_t { cigi, flightgear_fdm, canaerospace, modbus };
+inline constexpr std::size_t kProtocolCount = 4;
 
-/// "cigi", "fdm": the scheme of its URLs.
+/// "cigi", "fdm", "can", "modbus": the scheme of its URLs.
 std::string_view name_of(Protocol protocol);
+/// "CIGI 3", "FlightGear FDM", "CANaerospace", "Modbus".
+std::string_view title_of(Protocol protocol);
 
 /// A link that cannot be understood, or is not supported: wrong use (exit status 2). The message names the URL.
 struct LinkUrlError : std::runtime_error {
@@ -21,17 +29,22 @@ struct LinkUrlError : std::runtime_error {
 
 struct LinkUrl {
     Protocol protocol = Protocol::cigi;
-    std::string text;                       ///< as given
-    std::string address;                    ///< numeric, without brackets; 127.0.0.1 where none was given
-    std::optional<std::uint16_t> port;      ///< absent for a bare protocol, which names a recording's; 0: any free port
-    std::optional<std::uint16_t> ownship;   ///< ?ownship=ID
-    std::optional<std::uint16_t> view;      ///< ?view=ID
-    std::optional<double> altitude_offset;  ///< ?altitude_offset=METRES, added to the host's altitudes
+    std::string text;     ///< as given
+    bool live = false;    ///< says where to listen; a bare protocol names a recording's
+    std::string address;  ///< numeric, without brackets, 127.0.0.1 where none was given; CAN: the interface
+    std::optional<std::uint16_t> port;        ///< 0: any free port; absent for CAN and a bare protocol
+    std::optional<std::uint16_t> ownship;     ///< ?ownship=ID
+    std::optional<std::uint16_t> view;        ///< ?view=ID
+    std::optional<double> altitude_offset;    ///< ?altitude_offset=METRES, added to the host's altitudes
+    canaerospace::PoseSettings canaerospace;  ///< ?position=, ?commit=, ?channel=, ?timeout=
+    modbus::PoseSettings modbus;              ///< ?base=, ?word_order=
+    std::optional<std::uint8_t> can_node;     ///< ?node=ID
 };
 
 /// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
-/// Keys: version (cigi; 3, 3.0 to 3.3), ownship, view (cigi), altitude_offset.
-/// Throws LinkUrlError.
+/// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3), ownship, view; can: position (gps,
+/// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
+/// to 255). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

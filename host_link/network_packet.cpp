@@ -17,12 +17,12 @@ namespace quadrig::host {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-using Result = std::variant<UdpDatagram, NotUdp>;
+using Result = std::variant<UdpDatagram, TcpSegment, NotUdp>;
 
 constexpr std::uint16_t kEtherIpv4 = 0x0800, kEtherIpv6 = 0x86DD, kEtherVlan = 0x8100, kEtherServiceVlan = 0x88A8,
                         kEtherOldQinQ = 0x9100;
-constexpr std::uint8_t kHopByHop = 0, kUdp = 17, kRouting = 43, kFragment = 44, kDestinationOptions = 60;
-constexpr std::size_t kUdpHeader = 8, kIpv6Header = 40, kIpv4Header = 20;
+constexpr std::uint8_t kHopByHop = 0, kTcp = 6, kUdp = 17, kRouting = 43, kFragment = 44, kDestinationOptions = 60;
+constexpr std::size_t kUdpHeader = 8, kTcpHeader = 20, kIpv6Header = 40, kIpv4Header = 20;
 
 std::uint8_t u8(Bytes b, std::size_t at) { return std::to_integer<std::uint8_t>(b[at]); }
 std::uint16_t u16(Bytes b, std::size_t at) { return load<std::uint16_t>(b, at, ByteOrder::big); }
@@ -41,18 +41,35 @@ Result udp(Bytes segment, const IpAddress& source, const IpAddress& destination)
     return UdpDatagram{source, destination, u16(segment, 0), u16(segment, 2), payload};
 }
 
+Result tcp(Bytes segment, const IpAddress& source, const IpAddress& destination) {
+    constexpr unsigned kSyn = 2;
+    if (segment.size() < kTcpHeader) return NotUdp::other_protocol;
+    const std::size_t header = std::size_t{4} * (u8(segment, 12) >> 4);
+    if (header < kTcpHeader || header > segment.size()) return NotUdp::other_protocol;
+    const bool begins = (u8(segment, 13) & kSyn) != 0;
+    const std::uint32_t sequence = load<std::uint32_t>(segment, 4, ByteOrder::big) + (begins ? 1U : 0U);
+    return TcpSegment{source, destination, u16(segment, 0), u16(segment, 2), sequence, begins, segment.subspan(header)};
+}
+
+Result transport(std::uint8_t protocol, Bytes segment, const IpAddress& source, const IpAddress& destination) {
+    if (protocol == kUdp) return udp(segment, source, destination);
+    if (protocol == kTcp) return tcp(segment, source, destination);
+    return NotUdp::other_protocol;
+}
+
 Result ipv4(Bytes packet) {
     if (packet.size() < kIpv4Header) return NotUdp::damaged;
     const std::size_t header = std::size_t{4} * (u8(packet, 0) & 0x0FU);
     if (header < kIpv4Header || header > packet.size()) return NotUdp::damaged;
-    if (u8(packet, 9) != kUdp) return NotUdp::other_protocol;
+    const std::uint8_t protocol = u8(packet, 9);
+    if (protocol != kUdp && protocol != kTcp) return NotUdp::other_protocol;
     if ((u16(packet, 6) & 0x3FFFU) != 0) return NotUdp::fragment;
     // 0: the network card was to fill it in (segmentation offload). Ethernet pads short packets beyond the total
     // length.
     const std::size_t total = u16(packet, 2) == 0 ? packet.size() : u16(packet, 2);
     if (total < header) return NotUdp::damaged;
     const Bytes body = packet.first(std::min(total, packet.size())).subspan(header);
-    return udp(body, address(packet.subspan(12, 4), false), address(packet.subspan(16, 4), false));
+    return transport(protocol, body, address(packet.subspan(12, 4), false), address(packet.subspan(16, 4), false));
 }
 
 Result ipv6(Bytes packet) {
@@ -70,8 +87,7 @@ Result ipv6(Bytes packet) {
         body = body.subspan(size);
     }
     if (next == kFragment) return NotUdp::fragment;
-    if (next != kUdp) return NotUdp::other_protocol;
-    return udp(body, source, destination);
+    return transport(next, body, source, destination);
 }
 
 Result ip(Bytes packet) {
@@ -118,7 +134,7 @@ bool is_known_link_type(int link_type) {
     }
 }
 
-std::variant<UdpDatagram, NotUdp> udp_datagram(int link_type, std::span<const std::byte> packet) {
+std::variant<UdpDatagram, TcpSegment, NotUdp> transport_packet(int link_type, std::span<const std::byte> packet) {
     switch (link_type) {
         case DLT_EN10MB:
             return ether(packet, 12, 14);
@@ -137,6 +153,13 @@ std::variant<UdpDatagram, NotUdp> udp_datagram(int link_type, std::span<const st
         default:
             return NotUdp::other_protocol;
     }
+}
+
+std::variant<UdpDatagram, NotUdp> udp_datagram(int link_type, std::span<const std::byte> packet) {
+    const auto result = transport_packet(link_type, packet);
+    if (const auto* datagram = std::get_if<UdpDatagram>(&result)) return *datagram;
+    if (const auto* other = std::get_if<NotUdp>(&result)) return *other;
+    return NotUdp::other_protocol;
 }
 
 }  // namespace quadrig::host

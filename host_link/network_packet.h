@@ -1,4 +1,4 @@
-/// Captured link-layer packets down to the UDP datagram inside. Pure.
+/// Captured link-layer packets down to the UDP datagram or TCP segment inside. Pure.
 #pragma once
 
 #include <array>
@@ -23,12 +23,23 @@ struct UdpDatagram {
     std::span<const std::byte> payload;  ///< as much of it as was captured
 };
 
+/// One segment of a TCP stream.
+struct TcpSegment {
+    IpAddress source, destination;
+    std::uint16_t source_port = 0, destination_port = 0;
+    std::uint32_t sequence = 0;  ///< of the payload's first byte, or of the one after SYN
+    bool begins = false;         ///< SYN: the stream starts here
+    std::span<const std::byte> payload;
+};
+
 enum class NotUdp : std::uint8_t { other_protocol, fragment, damaged };
 
 /// libpcap's data link types that are understood.
 bool is_known_link_type(int link_type);
 
 /// `packet` is what was captured, from the link layer's header on.
+std::variant<UdpDatagram, TcpSegment, NotUdp> transport_packet(int link_type, std::span<const std::byte> packet);
+/// The same where only UDP matters.
 std::variant<UdpDatagram, NotUdp> udp_datagram(int link_type, std::span<const std::byte> packet);
 
 }  // namespace quadrig::host

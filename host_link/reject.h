@@ -21,6 +21,16 @@ enum class Reject : std::uint8_t {
     out_of_range,           ///< a number that is not finite, or outside the range its field has
     attached_ownship,       ///< the ownship is attached to another entity: its position is not geodetic
     view_of_other_entity,   ///< View Control puts our view on an entity that is not the ownship
+    not_data_frame,         ///< CAN: a remote frame, an error report, CAN FD, or a damaged record
+    unknown_channel,        ///< CANaerospace: a redundancy channel above 255, or one more than are followed
+    bad_data_type,          ///< CANaerospace: a parameter in a type that it cannot have
+    lone_half,              ///< CANaerospace: half of a float64 whose other half did not come
+    incomplete_pose,        ///< CANaerospace: the completing message came while a part was missing or too old
+    bad_request,            ///< Modbus: a function that is not served, or counts that contradict each other
+    bad_address,            ///< Modbus: registers that are not there, or are not for hosts to write
+    commit_mismatch,        ///< Modbus: the commit register was not the sequence number
+    other_host,             ///< Modbus: a pose of a second host while the first one drives
+    too_many_clients,       ///< Modbus: connections that found every place taken
     count
 };
 
@@ -36,7 +46,17 @@ inline constexpr std::array<std::string_view, kRejectCount> kRejectNames{"trunca
                                                                          "version_size_mismatch",
                                                                          "out_of_range",
                                                                          "attached_ownship",
-                                                                         "view_of_other_entity"};
+                                                                         "view_of_other_entity",
+                                                                         "not_data_frame",
+                                                                         "unknown_channel",
+                                                                         "bad_data_type",
+                                                                         "lone_half",
+                                                                         "incomplete_pose",
+                                                                         "bad_request",
+                                                                         "bad_address",
+                                                                         "commit_mismatch",
+                                                                         "other_host",
+                                                                         "too_many_clients"};
 
 constexpr std::string_view name_of(Reject reason) { return kRejectNames[static_cast<std::size_t>(reason)]; }
 

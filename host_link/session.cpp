@@ -18,13 +18,6 @@ constexpr double kAngleRounding = 1e-4;
 bool within(double value, double lowest, double highest) { return value >= lowest && value <= highest; }
 bool is_angle(double degrees, double limit) { return within(degrees, -limit - kAngleRounding, limit + kAngleRounding); }
 
-bool in_range(const GeodeticPosition& position, const Attitude& attitude) {
-    return within(position.latitude.value, -90.0, 90.0) &&
-           within(position.longitude.value, -180.0 - 1e-9, 180.0 + 1e-9) &&
-           within(position.altitude, kLowestAltitude, kHighestAltitude) && is_angle(attitude.heading.value, 360.0) &&
-           is_angle(attitude.pitch.value, 90.0) && is_angle(attitude.roll.value, 360.0);
-}
-
 Degrees heading_in_circle(Degrees heading) {
     const double turned = std::fmod(heading.value, 360.0);
     return {turned < 0.0 ? turned + 360.0 : turned};
@@ -51,6 +44,13 @@ cigi::IgMode ig_mode(Mode mode) {
 
 }  // namespace
 
+bool in_range(const GeodeticPosition& position, const Attitude& attitude) {
+    return within(position.latitude.value, -90.0, 90.0) &&
+           within(position.longitude.value, -180.0 - 1e-9, 180.0 + 1e-9) &&
+           within(position.altitude, kLowestAltitude, kHighestAltitude) && is_angle(attitude.heading.value, 360.0) &&
+           is_angle(attitude.pitch.value, 90.0) && is_angle(attitude.roll.value, 360.0);
+}
+
 SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene_origin) {
     SessionOptions options;
     options.protocol = url.protocol;
@@ -58,6 +58,9 @@ SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene
     options.altitude_offset = url.altitude_offset.value_or(0.0);
     options.ownship = url.ownship.value_or(0);
     options.view = url.view;
+    options.canaerospace = url.canaerospace;
+    options.modbus = url.modbus;
+    options.can_node = url.can_node.value_or(kDefaultCanNode);
     return options;
 }
 
@@ -76,16 +79,28 @@ std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Tim
 }
 
 Session::Session(const SessionOptions& options)
-    : options_(options), scene_frame_(options.scene_origin), view_(options.view) {
+    : options_(options), scene_frame_(options.scene_origin), can_pose_(options.canaerospace), view_(options.view) {
     statistics_.protocol = options.protocol;
     if (const auto& window = options.default_window)
         window_ = {window->left, window->right, window->top, window->bottom};
 }
 
-Verdict Session::accept(std::span<const std::byte> datagram, Time arrival) {
+Verdict Session::accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source) {
     ++statistics_.datagrams;
     statistics_.bytes += datagram.size();
-    return options_.protocol == Protocol::cigi ? accept_cigi(datagram, arrival) : accept_fdm(datagram, arrival);
+    answer_size_ = 0;
+    response_count_ = 0;
+    switch (options_.protocol) {
+        case Protocol::cigi:
+            return accept_cigi(datagram, arrival);
+        case Protocol::flightgear_fdm:
+            return accept_fdm(datagram, arrival);
+        case Protocol::canaerospace:
+            return accept_can(datagram, arrival);
+        case Protocol::modbus:
+            return accept_modbus(datagram, arrival, source);
+    }
+    return Verdict::rejected;
 }
 
 Verdict Session::reject(Reject reason) {
@@ -93,7 +108,7 @@ Verdict Session::reject(Reject reason) {
     return Verdict::rejected;
 }
 
-Verdict Session::take(Time arrival, const std::optional<Candidate>& pose, std::optional<Time> source_time) {
+Verdict Session::take(Time arrival, const std::optional<GeodeticPose>& pose, std::optional<Time> source_time) {
     state_.newest_arrival = arrival;
     run_ephemeris(arrival);
     if (!pose) return Verdict::no_pose;
@@ -108,10 +123,12 @@ Verdict Session::take(Time arrival, const std::optional<Candidate>& pose, std::o
 void Session::restart() {
     ++statistics_.restarts;
     cigi_clock_.restart();
+    modbus_clock_.restart();
+    standing_count_ = 0;
     comparable_ = false;
 }
 
-void Session::commit_pose(const Candidate& pose, Time arrival, std::optional<Time> source_time) {
+void Session::commit_pose(const GeodeticPose& pose, Time arrival, std::optional<Time> source_time) {
     PoseSample sample;
     sample.position = pose.position;
     sample.position.altitude += options_.altitude_offset;
@@ -140,7 +157,7 @@ Verdict Session::accept_fdm(std::span<const std::byte> datagram, Time arrival) {
     if (const auto* reason = std::get_if<Reject>(&decoded)) return reject(*reason);
     const auto& packet = std::get<flightgear::NetFdm>(decoded);
     ++statistics_.packets[packet.version];
-    const Candidate pose{
+    const GeodeticPose pose{
         {Degrees::from_radians(packet.latitude), Degrees::from_radians(packet.longitude), packet.altitude},
         {Degrees::from_radians(packet.psi), Degrees::from_radians(packet.theta), Degrees::from_radians(packet.phi)}};
     if (!in_range(pose.position, pose.attitude)) return reject(Reject::out_of_range);
@@ -179,7 +196,8 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
     reply_ =
         ReplyContext{message.order, ig_control.minor_version, ig_control.last_ig_frame.has_value(), ig_control.database,
                      state_.mode,   ig_control.host_frame};
-    std::optional<Candidate> pose;
+    std::optional<GeodeticPose> pose;
+    bool asks = false;
     for (auto rest = message.packets; !rest.empty();) {
         const cigi::Packet packet = cigi::next_packet(rest);
         const auto as = [&]<class P>(P) { return cigi::decode<P>(packet.bytes, message.order); };
@@ -204,12 +222,25 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
             case cigi::AtmosphereControl::kId:
                 apply(as(cigi::AtmosphereControl{}));
                 break;
+            case cigi::HatHotRequest::kId:
+            case cigi::LosSegmentRequest::kId:
+            case cigi::LosVectorRequest::kId:
+                asks = true;
+                break;
             default:
                 break;
         }
     }
     const auto source_time = ig_control.timestamp_valid ? cigi_clock_.read(ig_control.timestamp) : std::nullopt;
-    return take(arrival, pose, source_time);
+    const Verdict verdict = take(arrival, pose, source_time);
+    // After the message's own pose: questions in the ownship's axes are about where it is now.
+    answer_standing(message);
+    for (auto rest = message.packets; asks && !rest.empty();) {
+        const cigi::Packet packet = cigi::next_packet(rest);
+        if (packet.id >= cigi::HatHotRequest::kId && packet.id <= cigi::LosVectorRequest::kId)
+            answer_request(packet, message);
+    }
+    return verdict;
 }
 
 }  // namespace quadrig::host

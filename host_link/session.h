@@ -3,21 +3,28 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "host_link/canaerospace_pose.h"
 #include "host_link/cigi.h"
+#include "host_link/cigi_query.h"
 #include "host_link/flightgear_fdm.h"
 #include "host_link/frame_order.h"
 #include "host_link/geodesy.h"
 #include "host_link/host_state.h"
 #include "host_link/link_statistics.h"
 #include "host_link/link_url.h"
+#include "host_link/modbus_pose.h"
 #include "host_link/source_clock.h"
+#include "host_link/survey.h"
 
 namespace quadrig::host {
+
+inline constexpr std::uint8_t kDefaultCanNode = 32;
 
 struct SessionOptions {
     Protocol protocol = Protocol::cigi;
@@ -26,6 +33,10 @@ struct SessionOptions {
     std::uint16_t ownship = 0;                 ///< entity id
     std::optional<std::uint16_t> view;         ///< view id; absent: the first one that the host names
     std::optional<ViewWindow> default_window;  ///< fills up what a View Definition leaves out
+    canaerospace::PoseSettings canaerospace;   ///< which messages make a pose
+    modbus::PoseSettings modbus;               ///< where the registers are
+    std::uint8_t can_node = kDefaultCanNode;   ///< under which CANaerospace's services find us
+    Surveyor surveyor;                         ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };
 
@@ -55,47 +66,90 @@ struct ReplyContext {
 std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time,
                            std::span<std::byte, cigi::StartOfFrame::kSize> out);
 
+/// Whether a pose is finite and in the ranges that host_link/README.md states.
+bool in_range(const GeodeticPosition& position, const Attitude& attitude);
+
 class Session {
   public:
     static constexpr std::size_t kMaxEntities = 256;
+    /// Answers to one message, and requests that are repeated.
+    static constexpr std::size_t kMostResponses = 64;
+    /// Connections whose unfinished writes are kept; of more, those that wrote last.
+    static constexpr std::size_t kMostModbusHosts = 8;
 
     explicit Session(const SessionOptions& options);
 
-    /// Folds a datagram in. A datagram is taken whole or not at all, but for single packets whose values are out of
-    /// range. Allocates nothing.
-    Verdict accept(std::span<const std::byte> datagram, Time arrival);
+    /// Folds a datagram (of CAN: a frame, as its LINKTYPE_CAN_SOCKETCAN record) in. A datagram is taken whole or not at
+    /// all, but for single packets whose values are out of range. Allocates nothing.
+    /// `source` tells a Modbus host's connection from others.
+    Verdict accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source = 0);
+    /// Counts what a link refused before it was a datagram.
+    void refuse(Reject reason) { reject(reason); }
+    /// Counts an answer that a link had no place for.
+    void drop_answer() { ++statistics_.answers_dropped; }
+
+    /// What the protocol wants sent back at once for the datagram just given to accept: empty for most. A CAN frame is
+    /// its LINKTYPE_CAN_SOCKETCAN record.
+    [[nodiscard]] std::span<const std::byte> answer() const { return {answer_.data(), answer_size_}; }
+
+    /// CIGI packets that answer the requests of the datagram just given to accept, and those that were to be repeated:
+    /// to be sent behind the next Start Of Frame.
+    struct Response {
+        std::array<std::byte, cigi::kLargestResponse> bytes{};
+        std::size_t size = 0;
+    };
+    [[nodiscard]] std::span<const Response> responses() const { return {responses_.data(), response_count_}; }
 
     [[nodiscard]] const HostState& state() const { return state_; }
     [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
     /// Present once a CIGI host has spoken.
     [[nodiscard]] const std::optional<ReplyContext>& reply_context() const { return reply_; }
+    /// Of the newest Modbus pose; 0 before the first.
+    [[nodiscard]] std::uint16_t modbus_sequence() const;
     /// Newest Entity Control of every entity but the ownship, in the order they appeared.
     [[nodiscard]] std::span<const cigi::EntityControl> entities() const { return {entities_.data(), entity_count_}; }
 
   private:
-    struct Candidate {
-        GeodeticPosition position;
-        Attitude attitude;
-    };
     struct Window {
         std::optional<Degrees> left, right, top, bottom;
     };
 
     Verdict reject(Reject reason);
-    Verdict take(Time arrival, const std::optional<Candidate>& pose, std::optional<Time> source_time);
+    Verdict take(Time arrival, const std::optional<GeodeticPose>& pose, std::optional<Time> source_time);
     void restart();
-    void commit_pose(const Candidate& pose, Time arrival, std::optional<Time> source_time);
+    void commit_pose(const GeodeticPose& pose, Time arrival, std::optional<Time> source_time);
     void run_ephemeris(Time arrival);
 
     Verdict accept_fdm(std::span<const std::byte> datagram, Time arrival);
+    Verdict accept_can(std::span<const std::byte> record, Time arrival);
+    void apply(const canaerospace::Message& message);
+    Verdict accept_modbus(std::span<const std::byte> frame, Time arrival, std::uint32_t source);
+    modbus::PoseRegisters& registers_of(std::uint32_t source);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
     void apply(const cigi::IgControl& packet);
-    std::optional<Candidate> apply(const cigi::EntityControl& packet);
+    std::optional<GeodeticPose> apply(const cigi::EntityControl& packet);
     void apply(const cigi::ViewControl& packet);
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);
     void apply(const cigi::AtmosphereControl& packet);
+    struct LineRequest {
+        std::uint16_t id = 0;
+        bool segment = false, extended = false, response_entity = false;
+    };
+    std::optional<ScenePoint> point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id);
+    std::optional<SurveyHit> plumb(const GeodeticPosition& below);
+    void answer(const cigi::HatHotRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer(const cigi::LosSegmentRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer(const cigi::LosVectorRequest& request, ByteOrder order, std::uint8_t frame);
+    void answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, ByteOrder order,
+                     std::uint8_t frame);
+    bool answer_packet(const cigi::Packet& packet, ByteOrder order, std::uint8_t frame);
+    void answer_request(const cigi::Packet& packet, const cigi::Message& message);
+    void answer_standing(const cigi::Message& message);
+    static std::uint8_t frame_nibble(const cigi::IgControl& ig_control);
+    template <class P>
+    void respond(const P& response, ByteOrder order);
     bool is_our_view(std::uint16_t view, std::uint8_t group);
 
     SessionOptions options_;
@@ -104,8 +158,36 @@ class Session {
     LinkStatistics statistics_;
     std::optional<ReplyContext> reply_;
     FrameOrder frame_order_;
-    CigiClock cigi_clock_;
+    TickClock cigi_clock_{kCigiTick};
     FdmClock fdm_clock_;
+    canaerospace::PoseAssembler can_pose_;
+    std::optional<std::chrono::year_month_day> can_date_;
+    struct ModbusHost {
+        std::optional<std::uint32_t> source;
+        std::uint64_t used = 0;  ///< when, counted in datagrams
+        modbus::PoseRegisters registers;
+    };
+    struct ModbusDriving {
+        std::uint32_t source = 0;
+        std::uint16_t sequence = 0;
+        Time commit{};
+    };
+    std::array<ModbusHost, kMostModbusHosts> modbus_hosts_{};
+    std::optional<ModbusDriving> modbus_driving_;
+    TickClock modbus_clock_{kModbusTick};
+    std::array<std::byte, kCanRecordSize> answer_{};
+    std::size_t answer_size_ = 0;
+    std::array<Response, kMostResponses> responses_{};
+    std::size_t response_count_ = 0;
+    /// A request that is answered again every so many host frames.
+    struct Standing {
+        std::array<std::byte, cigi::LosSegmentRequest::kSize> packet{};
+        std::size_t size = 0;
+        ByteOrder order = ByteOrder::little;
+        std::uint32_t asked = 0;  ///< host frame
+    };
+    std::array<Standing, kMostResponses> standing_{};
+    std::size_t standing_count_ = 0;
     std::optional<std::uint16_t> view_;
     Window window_;
     struct Ephemeris {

@@ -45,15 +45,15 @@ void Session::apply(const cigi::IgControl& packet) {
     }
 }
 
-std::optional<Session::Candidate> Session::apply(const cigi::EntityControl& packet) {
+std::optional<GeodeticPose> Session::apply(const cigi::EntityControl& packet) {
     if (packet.entity == options_.ownship) {
         if (packet.state == cigi::EntityState::destroyed) return std::nullopt;
         if (packet.attached) {
             reject(Reject::attached_ownship);
             return std::nullopt;
         }
-        return Candidate{{{packet.latitude}, {packet.longitude}, packet.altitude},
-                         {{packet.yaw}, {packet.pitch}, {packet.roll}}};
+        return GeodeticPose{{{packet.latitude}, {packet.longitude}, packet.altitude},
+                            {{packet.yaw}, {packet.pitch}, {packet.roll}}};
     }
     const auto end = entities_.begin() + static_cast<std::ptrdiff_t>(entity_count_);
     const auto known = std::find_if(entities_.begin(), end, [&](const auto& e) { return e.entity == packet.entity; });

@@ -5,19 +5,15 @@
 
 namespace quadrig::host {
 
-namespace {
-constexpr Time kCigiTick = std::chrono::microseconds(10);
-}  // namespace
-
-std::optional<Time> CigiClock::read(std::uint32_t ticks) {
+std::optional<Time> TickClock::read(std::uint32_t ticks) {
     if (!last_ticks_) {
         last_ticks_ = ticks;
-        last_ = ticks * kCigiTick;
+        last_ = ticks * tick_;
         return last_;
     }
     const auto elapsed = static_cast<std::int32_t>(ticks - *last_ticks_);
     last_ticks_ = ticks;
-    last_ += elapsed * kCigiTick;
+    last_ += elapsed * tick_;
     if (elapsed == 0) return std::nullopt;
     return last_;
 }

@@ -1,6 +1,7 @@
 /// The host's own time of a sample, out of the counters that protocols carry.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -8,14 +9,21 @@
 
 namespace quadrig::host {
 
-/// CIGI: 32 bits of 10 us that wrap after 11.9 hours.
-class CigiClock {
+/// CIGI's time stamps wrap after 11.9 hours.
+inline constexpr Time kCigiTick = std::chrono::microseconds(10);
+/// The host time of our Modbus registers wraps after 49.7 days.
+inline constexpr Time kModbusTick = std::chrono::milliseconds(1);
+
+/// A host's own clock: 32 bits of ticks of a known length, which wrap.
+class TickClock {
   public:
+    explicit TickClock(Time tick) : tick_(tick) {}
     /// The time stamp unwrapped; absent where it stands still. Messages must come in order.
     std::optional<Time> read(std::uint32_t ticks);
     void restart() { last_ticks_.reset(); }
 
   private:
+    Time tick_;
     std::optional<std::uint32_t> last_ticks_;
     Time last_{};
 };

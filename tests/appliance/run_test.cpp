@@ -11,6 +11,7 @@
 
 #include "display/png_file.h"
 #include "host_link/cigi.h"
+#include "host_link/cigi_query.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
 #include "tests/appliance/program.h"
@@ -130,6 +131,31 @@ TEST_CASE("A FlightGear host drives the picture live, until SIGTERM asks for the
     const Difference apart = difference(last_picture(out / "p"), rendered("0,0,14", "12.5,-3,20", scene_file));
     CHECK(apart.mean < 0.02);
     CHECK(apart.largest < 24);
+}
+
+TEST_CASE("A CIGI host that asks how high it is gets the answer behind a Start Of Frame") {
+    Program program({"run", "--scene", scene(), "--link", "cigi://127.0.0.1:0", "--size", "32x24"});
+    const auto port = program.number_after("listens on port ");
+    REQUIRE(port);
+    const HostSocket host(*port);
+    host::cigi::HatHotRequest request{.request = 77, .entity_coordinates = true};
+    host.send(cigi_message(5, {}, host::test::message(host::ByteOrder::big, request)));
+    Bytes bytes;
+    for (int i = 0; i < 100 && bytes.size() != 40; ++i) bytes = host.receive(5000ms);
+    REQUIRE(bytes.size() == 40);
+    const auto answer =
+        host::cigi::decode<host::cigi::HatHotResponse>(std::span(bytes).subspan(24), host::ByteOrder::big);
+    CHECK(answer.request == 77);
+    CHECK(answer.valid);
+    CHECK(answer.host_frame == 5);
+    // 14 m above the ground's plane, over whatever the scene has at its origin.
+    const auto depth = scratch_directory() / "d.npy";
+    const Outcome seen = quadrig_program({"render", scene(), "--eye", "0,0,100", "--attitude", "0,-90,0", "--size",
+                                          "1x1", "--fov", "1", "--reference", "--depth", depth});
+    REQUIRE(seen.status == 0);
+    CHECK(answer.height == Approx(14.0 - (100.0 - read_float64_plane(depth).at(0, 0))).margin(1e-6));
+    program.signal(SIGTERM);
+    CHECK(program.wait().status == 0);
 }
 
 TEST_CASE("A CIGI host gets Start Of Frame back, every frame, and is answered with its own frame numbers") {

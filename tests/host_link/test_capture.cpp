@@ -1,8 +1,11 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "host_link/canaerospace.h"
 #include "host_link/capture.h"
 #include "host_link/flightgear_fdm.h"
+#include "host_link/modbus_pose.h"
+#include "host_link/recording.h"
 #include "support.h"
 
 using namespace quadrig::host;
@@ -200,11 +203,37 @@ TEST_CASE("Captures with random damage are read or refused, never worse") {
                                 .c_str()) == 0);
         return read_file(path);
     }();
-    const Bytes pcap_source = read_file(scratch("fuzz.pcap"));
+    // A Modbus host's stream, and a bus as text.
+    const auto recorded = [](Protocol protocol, RecordingFormat format, const auto& bytes_of) {
+        RecordingText writer(protocol, format, "can0");
+        std::string all = writer.begin();
+        for (std::uint16_t i = 0; i < 20; ++i) {
+            const auto bytes = bytes_of(i);
+            Heard heard;
+            heard.bytes = bytes;
+            heard.from.ss_family = AF_INET;
+            heard.source = i % 3U;
+            all += writer.piece(heard, 1s + i * 16ms);
+        }
+        const auto view = std::as_bytes(std::span(all));
+        return Bytes(view.begin(), view.end());
+    };
+    const std::vector<Bytes> sources{read_file(scratch("fuzz.pcap")), pcapng_source,
+                                     recorded(Protocol::modbus, RecordingFormat::pcapng,
+                                              [](std::uint16_t i) {
+                                                  Bytes frame(modbus::kLargestFrame);
+                                                  const auto block = modbus::float_block({i, i, {}}, {});
+                                                  frame.resize(modbus::write_request(i, 0, block, frame));
+                                                  return frame;
+                                              }),
+                                     recorded(Protocol::canaerospace, RecordingFormat::candump, [](std::uint16_t i) {
+                                         return can_record(canaerospace::encode(canaerospace::with_float(
+                                             1038, static_cast<std::uint8_t>(i), static_cast<float>(i))));
+                                     })};
     const auto path = scratch("damaged");
     int readable = 0;
     for (int i = 0; i < 2000; ++i) {
-        Bytes bytes = i % 2 == 0 ? pcap_source : pcapng_source;
+        Bytes bytes = sources[static_cast<std::size_t>(i) % sources.size()];
         for (auto flips = 1 + random() % 8; flips > 0; --flips)
             bytes[random() % bytes.size()] = static_cast<std::byte>(random());
         write_file(path, bytes);

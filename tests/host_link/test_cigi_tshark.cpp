@@ -1,8 +1,10 @@
 // Wireshark's dissector as the judge: what we encode, it must read with the same values.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
+#include "host_link/cigi_query.h"
 #include "support.h"
 
 using namespace quadrig::host;
@@ -171,6 +173,135 @@ Columns random_reply(Random& random, Bytes& bytes, ByteOrder order) {
     return c;
 }
 
+/// Expects fields of one packet, whose names begin alike.
+struct Fields {
+    Random& random;
+    Columns& columns;
+    std::string packet;
+
+    void expect(const std::string& field, auto value) {
+        columns.push_back({"cigi." + packet + "." + field, static_cast<double>(value)});
+    }
+    void number(const std::string& field, auto& value) {
+        random.number(value);
+        expect(field, value);
+    }
+    void bits(const std::string& field, auto& value, int count) {
+        random.bits(value, count);
+        expect(field, value);
+    }
+    void triple(const std::string& before, std::array<double, 3>& values) {
+        number(before + "lat_xoff", values[0]);
+        number(before + "lon_yoff", values[1]);
+        number(before + "alt_zoff", values[2]);
+    }
+};
+
+Columns random_questions(Random& random, Bytes& bytes, ByteOrder order) {
+    Columns c;
+    cigi::HatHotRequest height;
+    Fields hat{random, c, "hat_hot_request"};
+    hat.number("hat_hot_id", height.request);
+    height.kind = static_cast<cigi::HeightKind>(random.below(3));
+    hat.expect("type", height.kind);
+    hat.bits("coordinate_system", height.entity_coordinates, 1);
+    hat.number("update_period", height.period);
+    hat.number("entity_id", height.entity);
+    hat.triple("", height.point);
+
+    cigi::LosSegmentRequest segment;
+    Fields seg{random, c, "los_segment_request"};
+    seg.number("los_id", segment.request);
+    seg.bits("type", segment.extended, 1);
+    seg.bits("source_coord", segment.source_entity, 1);
+    seg.bits("destination_coord", segment.destination_entity, 1);
+    seg.bits("response_coord", segment.response_entity, 1);
+    seg.bits("destination_entity_id_valid", segment.destination_id_valid, 1);
+    seg.number("alpha_threshold", segment.alpha_threshold);
+    seg.number("entity_id", segment.entity);
+    seg.triple("source_", segment.source);
+    seg.triple("destination_", segment.destination);
+    seg.number("material_mask", segment.material_mask);
+    seg.number("update_period", segment.period);
+    seg.number("destination_entity_id", segment.destination_id);
+
+    cigi::LosVectorRequest vector;
+    Fields vec{random, c, "los_vector_request"};
+    vec.number("los_id", vector.request);
+    vec.bits("type", vector.extended, 1);
+    vec.bits("source_coord", vector.source_entity, 1);
+    vec.bits("response_coord", vector.response_entity, 1);
+    vec.number("alpha", vector.alpha_threshold);
+    vec.number("entity_id", vector.entity);
+    vec.number("azimuth", vector.azimuth);
+    vec.number("elevation", vector.elevation);
+    vec.number("min_range", vector.least);
+    vec.number("max_range", vector.most);
+    vec.triple("source_", vector.source);
+    vec.number("material_mask", vector.material_mask);
+    vec.number("update_period", vector.period);
+
+    bytes = message(order, ig_control(1), height, segment, vector);
+    return c;
+}
+
+Columns random_answers(Random& random, Bytes& bytes, ByteOrder order) {
+    Columns c;
+    cigi::HatHotResponse height;
+    Fields hat{random, c, "hat_hot_response"};
+    hat.number("hat_hot_id", height.request);
+    hat.bits("valid", height.valid, 1);
+    hat.bits("type", height.of_terrain, 1);
+    hat.bits("host_frame_number_lsn", height.host_frame, 4);
+    hat.number("height", height.height);
+
+    cigi::HatHotExtendedResponse both;
+    Fields ext{random, c, "hat_hot_ext_response"};
+    ext.number("hat_hot_id", both.request);
+    ext.bits("valid", both.valid, 1);
+    ext.bits("host_frame_number_lsn", both.host_frame, 4);
+    ext.number("hat", both.above_terrain);
+    ext.number("hot", both.of_terrain);
+    ext.number("material_code", both.material);
+    ext.number("normal_vector_azimuth", both.normal_azimuth);
+    ext.number("normal_vector_elevation", both.normal_elevation);
+
+    cigi::LosResponse sight;
+    Fields los{random, c, "los_response"};
+    los.number("los_id", sight.request);
+    los.bits("valid", sight.valid, 1);
+    los.bits("entity_id_valid", sight.entity_valid, 1);
+    los.bits("visible", sight.visible, 1);
+    los.bits("host_frame_number_lsn", sight.host_frame, 4);
+    los.number("count", sight.count);
+    los.number("entity_id", sight.entity);
+    los.number("range", sight.range);
+
+    cigi::LosExtendedResponse all;
+    Fields far{random, c, "3_2_los_ext_response"};
+    far.number("los_id", all.request);
+    far.bits("valid", all.valid, 1);
+    far.bits("entity_id_valid", all.entity_valid, 1);
+    far.bits("range_valid", all.range_valid, 1);
+    far.bits("visible", all.visible, 1);
+    far.bits("host_frame_number_lsn", all.host_frame, 4);
+    far.number("response_count", all.count);
+    far.number("entity_id", all.entity);
+    far.number("range", all.range);
+    far.triple("", all.point);
+    far.number("red", all.rgba[0]);
+    far.number("green", all.rgba[1]);
+    far.number("blue", all.rgba[2]);
+    far.number("alpha", all.rgba[3]);
+    far.number("material_code", all.material);
+    far.number("normal_vector_azimuth", all.normal_azimuth);
+    far.number("normal_vector_elevation", all.normal_elevation);
+
+    cigi::StartOfFrame sof;
+    bytes = message(order, sof, height, both, sight, all);
+    return c;
+}
+
 double number_of(const std::string& text) {
     if (text == "True") return 1.0;
     if (text == "False") return 0.0;
@@ -220,4 +351,10 @@ TEST_CASE("tshark reads every field of every supported host packet as it was mea
 TEST_CASE("tshark reads every field of Start Of Frame as it was meant, in both byte orders") {
     judge("sof-little", ByteOrder::little, random_reply);
     judge("sof-big", ByteOrder::big, random_reply);
+}
+TEST_CASE("tshark reads every field of questions about the scene and of their answers, in both byte orders") {
+    judge("questions-little", ByteOrder::little, random_questions);
+    judge("questions-big", ByteOrder::big, random_questions);
+    judge("answers-little", ByteOrder::little, random_answers);
+    judge("answers-big", ByteOrder::big, random_answers);
 }

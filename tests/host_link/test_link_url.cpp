@@ -40,6 +40,18 @@ TEST_CASE("A bare protocol names a recording's") {
     CHECK_FALSE(parse_link_url("cigi:").port.has_value());
 }
 
+TEST_CASE("A CAN link names its interface") {
+    const LinkUrl url = parse_link_url("can://vcan0?node=7&channel=2&commit=1038");
+    CHECK(url.protocol == Protocol::canaerospace);
+    CHECK(url.live);
+    CHECK(url.address == "vcan0");
+    CHECK_FALSE(url.port.has_value());
+    CHECK(url.can_node == 7);
+    CHECK(url.canaerospace.channel == 2);
+    CHECK(url.canaerospace.commit == 1038);
+    CHECK_FALSE(parse_link_url("can:").live);
+}
+
 TEST_CASE("Options of a link are read") {
     const LinkUrl url = parse_link_url("cigi://127.0.0.1:8004?version=3.3&ownship=7&view=2&altitude_offset=-48.5");
     CHECK(url.ownship == 7);
@@ -53,8 +65,13 @@ TEST_CASE("What a link gets wrong is said with the link") {
     using Catch::Contains;
     CHECK_THAT(error_of("127.0.0.1"), Contains("127.0.0.1") && Contains("cigi://127.0.0.1:8004"));
     CHECK_THAT(error_of("http://127.0.0.1:80"), Contains("unknown scheme"));
-    CHECK_THAT(error_of("can://vcan0"), Contains("can links are not supported yet"));
-    CHECK_THAT(error_of("modbus://127.0.0.1:1502"), Contains("modbus links are not supported yet"));
+    CHECK_THAT(error_of("can://"), Contains("no CAN interface"));
+    CHECK_THAT(error_of("can://0123456789abcdef"), Contains("no CAN interface"));
+    CHECK_THAT(error_of("can://vcan0?node=0"), Contains("node is a number from 1 to 255"));
+    CHECK_THAT(error_of("can://vcan0?position=radio"), Contains("position is gps, ins or auxiliary"));
+    CHECK_THAT(error_of("can://vcan0?ownship=1"), Contains("unknown option"));
+    CHECK_THAT(error_of("modbus://127.0.0.1:1502?word_order=abdc"), Contains("word_order is abcd"));
+    CHECK_THAT(error_of("modbus://127.0.0.1:1502?base=65409"), Contains("base is a number from 0 to 65408"));
     CHECK_THAT(error_of("cigi://127.0.0.1"), Contains("no port"));
     CHECK_THAT(error_of("cigi://[::1]"), Contains("no port"));
     CHECK_THAT(error_of("cigi://127.0.0.1:65536"), Contains("bad port"));

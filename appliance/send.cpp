@@ -1,0 +1,70 @@
+/// `quadrig send`: a recording becomes a host.
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "appliance/commands.h"
+#include "appliance/option_values.h"
+#include "appliance/stop_signals.h"
+#include "host_link/capture.h"
+#include "host_link/sender.h"
+
+namespace quadrig::appliance {
+namespace {
+
+struct SendOptions {
+    std::filesystem::path recording;
+    std::optional<host::LinkUrl> to;
+    double speed = 1.0;
+};
+
+void send(const SendOptions& options) {
+    if (!options.to) throw WrongUse("--to is missing: where to?");
+    if (!options.to->live)
+        throw WrongUse("link '" + options.to->text + "': needs ADDRESS:PORT, or on CAN an interface");
+    if (!(options.speed > 0.0)) throw WrongUse("--speed is above 0");
+    watch_stop_signals();
+    const host::Capture capture = host::read_capture(options.recording, options.to->protocol);
+    const auto sender = host::open_sender(*options.to);
+    // Absolute times: a sleep that ends late does not move what comes after it.
+    const auto start = std::chrono::steady_clock::now();
+    const host::Time first = capture.datagrams.front().captured;
+    std::uint64_t sent = 0, failed = 0;
+    for (const auto& datagram : capture.datagrams) {
+        const std::chrono::duration<double, std::nano> since = (datagram.captured - first) / options.speed;
+        const auto due = start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
+        while (!stop_requested() && std::chrono::steady_clock::now() < due)
+            std::this_thread::sleep_until(
+                std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
+        if (stop_requested()) break;
+        ++(sender->send(capture.payload(datagram), datagram.source) ? sent : failed);
+    }
+    std::cerr << "quadrig: " << sent << " sent, " << failed << " not\n";
+}
+
+constexpr const char* kNotes =
+    "Whatever the recording's host sent, byte for byte, at its own pace: a host for those who have none. What comes "
+    "back\n"
+    "is not looked at.\n\n"
+    "Examples:\n"
+    "  quadrig send config/traces/netfdm-c172-takeoff.pcap --to fdm://127.0.0.1:5500\n"
+    "  quadrig send config/traces/canaerospace-c172-takeoff.log --to can://vcan0 --speed 2";
+
+}  // namespace
+
+void add_send(CLI::App& program, Action& action) {
+    CLI::App& command = *program.add_subcommand("send", "Play a recording to a live link, as its host did");
+    const auto options = std::make_shared<SendOptions>();
+    command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
+    add_option(
+        command, "--to", options->to, read_link,
+        "Where to: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\ncan://INTERFACE or modbus://ADDRESS:PORT (required)",
+        "URL");
+    add_option(command, "--speed", options->speed, read_number, "Times as fast as it was recorded (default 1)", "X");
+    command.footer(kNotes);
+    command.callback([options, &action] { action = [options] { send(*options); }; });
+}
+
+}  // namespace quadrig::appliance

@@ -1,0 +1,19 @@
+/// Socket addresses of links.
+#pragma once
+
+#include <sys/socket.h>
+
+#include <cstdint>
+
+#include "host_link/link_url.h"
+
+namespace quadrig::host {
+
+/// A link's numeric address and port for bind and connect; returns its size. Throws std::runtime_error with the URL
+/// where the address is not numeric.
+socklen_t socket_address(const LinkUrl& url, sockaddr_storage& storage);
+
+/// The port that a socket is bound to.
+std::uint16_t bound_port(int socket);
+
+}  // namespace quadrig::host

@@ -1,0 +1,45 @@
+/// Which of a recording's datagrams each frame of the live run had seen: with it the run is played again frame by
+/// frame.
+///
+/// Text beside the recording: a first line that tells the rate, then a line "frame,due,heard" for each frame drawn:
+/// its number, its deadline in nanoseconds since 1970 by the recording's clock, and how many datagrams of the recording
+/// had been taken in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_link/host_state.h"
+
+namespace quadrig::host {
+
+struct FrameNumbering {
+    std::int64_t rate_numerator = 60, rate_denominator = 1;
+    friend bool operator==(const FrameNumbering&, const FrameNumbering&) = default;
+};
+
+struct RecordedFrame {
+    std::uint64_t number = 0;
+    Time due{};
+    std::uint64_t heard = 0;
+};
+
+struct RecordedFrames {
+    FrameNumbering numbering;
+    std::vector<RecordedFrame> frames;
+};
+
+/// RECORDING with ".frames" behind its name.
+std::filesystem::path recorded_frames_file(const std::filesystem::path& recording);
+
+std::string first_line(const FrameNumbering& numbering);
+std::string line_of(const RecordedFrame& frame);
+
+/// Absent where there is no such file. A last line that is cut is left out. Throws std::runtime_error with file and
+/// line where it is something else, or its numbers go back.
+std::optional<RecordedFrames> read_recorded_frames(const std::filesystem::path& recording);
+
+}  // namespace quadrig::host

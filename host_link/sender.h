@@ -1,0 +1,28 @@
+/// The other end of a link: sends what a host has sent.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "host_link/link_url.h"
+
+namespace quadrig::host {
+
+class Sender {
+  public:
+    virtual ~Sender() = default;
+    Sender() = default;
+    Sender(const Sender&) = delete;
+    Sender& operator=(const Sender&) = delete;
+
+    /// A datagram, a CAN record or a Modbus request of the connection `source`, as Capture holds them; whether it left.
+    /// UDP that nobody listens to is not an error: the next may find somebody. Waits where the bus or the server is
+    /// slow.
+    virtual bool send(std::span<const std::byte> bytes, std::uint32_t source) = 0;
+};
+
+/// To where `url` says, which is a live one with a port. Throws std::runtime_error with the URL and the system's
+/// reason.
+std::unique_ptr<Sender> open_sender(const LinkUrl& url);
+
+}  // namespace quadrig::host

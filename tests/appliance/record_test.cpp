@@ -1,0 +1,147 @@
+// Recordings that the program writes: read by tshark, played again bit for bit, whole after a kill.
+#include <signal.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "host_link/modbus_pose.h"
+#include "host_link/recording.h"
+#include "tests/appliance/files.h"
+#include "tests/appliance/flights.h"
+#include "tests/appliance/program.h"
+
+using namespace quadrig;
+using namespace quadrig::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::string scene() { return scratch_file("scene.toml", small_scene()); }
+
+/// A Modbus host's flight as a capture: the climb of fdm_climb, 60 poses a second.
+std::filesystem::path modbus_climb(const std::filesystem::path& file, int count) {
+    host::RecordingText text(host::Protocol::modbus, host::RecordingFormat::pcapng, {});
+    std::ofstream out(file, std::ios::binary);
+    out << text.begin();
+    host::Heard heard;
+    heard.from.ss_family = AF_INET;
+    heard.to_port = 502;
+    for (int i = 0; i < count; ++i) {
+        const auto n = static_cast<std::uint16_t>(i);
+        const host::modbus::HostPose pose{
+            n, n * 16U, {{{47.26}, {11.34}, 581.0 + 14.0 + 0.05 * i}, {{0.2 * i}, {0.0}, {0.1 * i}}}};
+        const auto block = host::modbus::float_block(pose, {});
+        std::array<std::byte, host::modbus::kLargestFrame> frame{};
+        heard.bytes = std::span(frame).first(host::modbus::write_request(n, 0, block, frame));
+        out << text.piece(heard, 1'700'000'000s + i * 16667us);
+    }
+    return file;
+}
+
+struct TwoReports {
+    nlohmann::json live, again;
+};
+
+/// A live run, driven by `quadrig send` and recorded; then its recording, played as fast as it goes.
+TwoReports live_and_again(const std::string& scheme, const std::filesystem::path& flight,
+                          const std::filesystem::path& recording) {
+    const std::string scene_file = scene();
+    const auto out = scratch_directory();
+    Program program({"run", "--scene", scene_file, "--link", scheme + "://127.0.0.1:0", "--size", "48x32", "--frames",
+                     "90", "--record", recording, "--report", out / "live.json"});
+    const auto port = program.number_after("listens on port ");
+    REQUIRE(port);
+    const Outcome sent = quadrig_program({"send", flight, "--to", scheme + "://127.0.0.1:" + std::to_string(*port)});
+    CHECK(sent.status == 0);
+    INFO(sent.err);
+    const Outcome live = program.wait();
+    INFO(live.err);
+    REQUIRE(live.status == 0);
+    const Outcome again = quadrig_program(
+        {"replay", recording, "--scene", scene_file, "--size", "48x32", "--fast", "--report", out / "again.json"});
+    INFO(again.err);
+    REQUIRE(again.status == 0);
+    return {report_of(out / "live.json"), report_of(out / "again.json")};
+}
+
+void check_the_same(const TwoReports& reports) {
+    CHECK(reports.live["frames"] == reports.again["frames"]);
+    CHECK(reports.live["frame_hashes"] == reports.again["frame_hashes"]);
+    CHECK(reports.live["links"][0]["frames"] == reports.again["links"][0]["frames"]);
+    CHECK(reports.live["links"][0]["recorded"]["left_out"] == 0);
+    std::set<std::string> different;
+    for (const auto& hash : reports.live["frame_hashes"]) different.insert(hash);
+    CHECK(different.size() > 20);
+}
+
+}  // namespace
+
+TEST_CASE("A FlightGear host's live run is recorded, and the recording gives the same frames bit for bit") {
+    const auto recording = scratch_directory() / "run.pcapng";
+    check_the_same(live_and_again("fdm", fdm_climb(45), recording));
+    const auto rows = host::test::tshark_fields(recording, {"ip.proto", "udp.length", "_ws.malformed"});
+    CHECK(rows.size() == 45);
+    CHECK(rows[0] == std::vector<std::string>{"17", "416", ""});
+}
+
+TEST_CASE("A Modbus host's live run is recorded, tshark reads it, and it gives the same frames bit for bit") {
+    const auto recording = scratch_directory() / "run.pcapng";
+    const auto flight = modbus_climb(scratch_directory() / "flight.pcapng", 45);
+    const TwoReports reports = live_and_again("modbus", flight, recording);
+    check_the_same(reports);
+    CHECK(reports.live["links"][0]["replies"] == 45);
+    CHECK(reports.again["links"][0]["last_pose"]["altitude"] == Approx(581.0 + 14.0 + 0.05 * 44));
+    // On its registered port, for tshark to know it.
+    const auto rows = host::test::tshark_fields(flight, {"tcp.flags.syn", "tcp.seq_raw", "_ws.malformed"});
+    REQUIRE(rows.size() == 46);
+    CHECK(rows[0][0] == "1");
+    CHECK(rows[45] == std::vector<std::string>{"0", std::to_string(1 + 44 * 61), ""});
+    const auto poses = host::test::tshark_fields(flight, {"modbus.func_code", "modbus.regval_uint16"});
+    CHECK(poses[3][0] == "16");
+    CHECK_THAT(poses[3][1], Catch::StartsWith("1,2,0,32,16455,41287,44564,31457,"));
+}
+
+TEST_CASE("A recording whose process was killed has all but the last second, and can be played") {
+    const auto recording = scratch_directory() / "killed.pcapng";
+    Program program({"record", recording, "--link", "fdm://127.0.0.1:0"});
+    const auto port = program.number_after("listens on port ");
+    REQUIRE(port);
+    Program host({"send", fdm_climb(600), "--to", "fdm://127.0.0.1:" + std::to_string(*port)});
+    std::this_thread::sleep_for(2500ms);
+    program.signal(SIGKILL);
+    const auto killed = std::chrono::system_clock::now().time_since_epoch();
+    program.wait();
+    host.signal(SIGTERM);
+    const auto rows = host::test::tshark_fields(recording, {"frame.time_epoch", "frame.time_relative"});
+    // The recording's clock is the calendar's to half a second; a machine that was away owes the host its datagrams.
+    CHECK(rows.size() > 60);
+    CHECK(std::stod(rows.back()[0]) > std::chrono::duration<double>(killed).count() - 2.0);
+    const Outcome check = quadrig_program({"check", recording});
+    CHECK(check.status == 0);
+    CHECK_THAT(check.out, Catch::Contains(std::to_string(rows.size()) + " poses"));
+}
+
+TEST_CASE("What cannot be recorded or sent is said before anything runs") {
+    const auto out = scratch_directory();
+    const auto fails = [&](const Arguments& arguments, int status, const std::string& reason) {
+        const Outcome outcome = quadrig_program(arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == status);
+        CHECK_THAT(outcome.err, Catch::Contains(reason));
+    };
+    fails({"record", out / "a.log", "--link", "fdm://127.0.0.1:0"}, 1, "only CAN can be recorded as a log");
+    fails({"record", out / "no" / "a.pcapng", "--link", "fdm://127.0.0.1:0"}, 1, "a.pcapng: cannot be written");
+    fails({"record", out / "a.pcapng", "--link", "fdm:"}, 2, "needs ADDRESS:PORT");
+    fails({"record", out / "a.pcapng"}, 2, "--link is missing");
+    fails({"send", fdm_climb(3), "--to", "cigi://127.0.0.1:9"}, 1, "no datagram of a CIGI");
+    fails({"send", fdm_climb(3), "--to", "fdm:"}, 2, "needs ADDRESS:PORT");
+    fails({"run", "--scene", scene(), "--link", "fdm://127.0.0.1:0", "--link", "cigi://127.0.0.1:0", "--record",
+           out / "a.pcapng"},
+          2, "--record takes one link");
+    std::ofstream(out / "bad.pcapng.frames") << "quadrig-frames 1 rate 60/1\n5,1,0\n4,2,0\n";
+    std::filesystem::copy_file(fdm_climb(3), out / "bad.pcapng");
+    fails({"replay", out / "bad.pcapng", "--scene", scene(), "--fast"}, 1, "bad.pcapng.frames:3: expected");
+}

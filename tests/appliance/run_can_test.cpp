@@ -31,7 +31,8 @@ exit $status
 }  // namespace
 
 TEST_CASE(
-    "A CANaerospace host drives the picture on a live bus, and finds the appliance by its identification service") {
+    "A CANaerospace host drives the picture on a live bus, asks who is there, and its recording gives the same "
+    "frames") {
     const auto out = scratch_directory();
     const std::string log = text_of(shipped("config/traces/canaerospace-c172-takeoff.log"));
     std::size_t end = 0;

@@ -305,7 +305,6 @@ TEST_CASE("A redundant channel takes over when the first falls silent, and gives
     Session session(can_options());
     CanHost first{.channel = 0}, second{.channel = 1};
     Time now{};
-    std::optional<Time> returned;
     for (int i = 0; i < 400; ++i, now += 16ms) {
         const bool silent = i >= 100 && i < 200;
         if (!silent) give(session, first.pose(10.0), now);

@@ -1,5 +1,6 @@
 #include "appliance/host_eye.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -17,7 +18,7 @@ std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time 
     return scheduler::host_view(*body, state.mount, plane);
 }
 
-Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed) const {
+Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed) {
     Environment environment;
     environment.seconds = std::chrono::duration<double>(elapsed).count();
     environment.visibility = state.visibility;
@@ -25,6 +26,14 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
         const host::SunPosition sun = host::sun_position(*state.utc, surroundings_.origin);
         environment.sun = Sun{sun.azimuth, sun.elevation, surroundings_.sun.ambient};
     }
+    std::size_t count = 0;
+    const std::vector<int>& types = surroundings_.entity_types;
+    for (std::size_t i = 0; i < state.entity_count; ++i) {
+        const host::Entity& entity = state.entities[i];
+        const auto model = std::find(types.begin(), types.end(), entity.type);
+        if (model != types.end()) bodies_[count++] = {static_cast<std::uint32_t>(model - types.begin()), entity.pose};
+    }
+    environment.bodies = {bodies_.data(), count};
     return environment;
 }
 

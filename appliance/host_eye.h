@@ -1,8 +1,10 @@
 /// What one host's words come to: the eye, and the light and air about it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "frame_scheduler/frame_clock.h"
 #include "frame_scheduler/motion.h"
@@ -21,6 +23,7 @@ class HostEye {
         bool ignore_host_window = false;
         GeodeticPosition origin;
         Sun sun;
+        std::vector<int> entity_types;  ///< of the scene's models, in their order
     };
     explicit HostEye(const Surroundings& surroundings) : surroundings_(surroundings) {}
 
@@ -28,12 +31,14 @@ class HostEye {
     /// the state latched for it. Nothing before the host's first pose.
     std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
     /// `elapsed`: the scene's time.
-    [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed) const;
+    /// What the environment refers to is good until the next call.
+    [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed);
     /// When the newest pose came in, where no frame before has asked for it.
     std::optional<scheduler::Time> fresh_arrival(const host::HostState& state);
 
   private:
     Surroundings surroundings_;
+    std::array<PlacedModel, host::kMostShownEntities> bodies_;
     scheduler::MotionSmoother smoother_;
     std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
 };

@@ -108,7 +108,7 @@ void replay(const ReplayOptions& options) {
     if (capture.truncated)
         std::cerr << "quadrig: " << options.recording.string() << ": ends early (" << *capture.truncated
                   << "); played up to there\n";
-    Painter painter(config::read_scene(*options.settings.scene), settings);
+    Painter painter(scene_with_entities(options.settings), settings);
     const Scene& scene = painter.scene();
     const host::LinkUrl link =
         options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
@@ -131,7 +131,8 @@ void replay(const ReplayOptions& options) {
             return Shown{&playback->state_at(time), time, index};
         };
     }
-    HostEye eye({painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
+    HostEye eye(
+        {painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun, entity_types(options.settings)});
 
     const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
                                        : frames_to_draw(options, settings.rate, *playback);

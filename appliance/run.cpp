@@ -110,7 +110,7 @@ void run(const LiveOptions& options) {
     std::optional<SceneSurvey> survey;
     std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
-    Painter painter(config::read_scene(*given.scene), settings);
+    Painter painter(scene_with_entities(given), settings);
     const Scene& scene = painter.scene();
 
     RunLength length{options.frames, options.duration};
@@ -129,8 +129,8 @@ void run(const LiveOptions& options) {
             host::Recorder::Settings{options.record,
                                      host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
     for (const auto& host : hosts) {
-        host->eye.emplace(
-            HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun});
+        host->eye.emplace(HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin,
+                                                scene.sun, entity_types(given)});
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
         session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };

@@ -6,6 +6,8 @@
 
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
+#include "config/model_section.h"
+#include "config/scene_file.h"
 
 namespace quadrig::appliance {
 
@@ -34,6 +36,9 @@ void add_host_options(CLI::App& command, RunOptions& options) {
                     "Where pictures go: png:DIRECTORY, y4m:FILE (y4m:- is standard\n"
                     "output), none:. May be given again (default: nowhere)",
                     "URL");
+    add_list_option(command, "--entity", settings.entities, read_entity,
+                    "Draw the host's entities of a type as a model of config/models.\nMay be given again",
+                    "TYPE=MODEL");
     command.add_option("--contact-sheet", options.contact_sheet, "Write a page of evenly spaced frames")
         ->option_text("FILE.png");
     add_option(command, "--fov", settings.fov, read_field_of_view, "Horizontal field of view, degrees (default 60)",
@@ -48,6 +53,18 @@ void add_host_options(CLI::App& command, RunOptions& options) {
 }
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+Scene scene_with_entities(const config::ApplianceSettings& settings) {
+    Scene scene = config::read_scene(*settings.scene);
+    for (const auto& entity : settings.entities) scene.models.push_back(config::named_model(entity.model));
+    return scene;
+}
+
+std::vector<int> entity_types(const config::ApplianceSettings& settings) {
+    std::vector<int> types;
+    for (const auto& entity : settings.entities) types.push_back(entity.type);
+    return types;
+}
 
 PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings) {
     config::QualityLadder ladder =

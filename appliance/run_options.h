@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "config/appliance_file.h"
+#include "ig_core/scene/scene.h"
 
 namespace quadrig::appliance {
 
@@ -38,6 +40,11 @@ struct PictureSettings {
 };
 /// Throws WrongUse where the ladder has no such quality.
 PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings);
+
+/// The scene of the settings, with a model for every type of entity.
+Scene scene_with_entities(const config::ApplianceSettings& settings);
+/// Their types, in the order of the scene's models.
+std::vector<int> entity_types(const config::ApplianceSettings& settings);
 
 /// One thread per core that this process may use.
 int default_threads();

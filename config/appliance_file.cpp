@@ -9,7 +9,7 @@
 namespace quadrig::config {
 namespace {
 
-const KnownKeys kKeys{"scene", "links", "sinks", "size", "fov", "rate", "threads", "quality"};
+const KnownKeys kKeys{"scene", "links", "sinks", "size", "fov", "rate", "threads", "quality", "entity"};
 
 bool is_whole_in(double number, double least, double most) {
     return number >= least && number <= most && std::trunc(number) == number;
@@ -19,6 +19,8 @@ constexpr NumberRule kPixels{"pixels, a whole number in 1..16384",
 constexpr NumberRule kFieldOfView{"degrees above 0 and below 180", [](double x) { return x > 0.0 && x < 180.0; }};
 constexpr NumberRule kRate{"hertz in 1..1000", [](double x) { return scheduler::frame_rate(x).has_value(); }};
 constexpr NumberRule kThreads{"a whole number in 1..1024", [](double x) { return is_whole_in(x, 1.0, kMostThreads); }};
+
+constexpr NumberRule kEntityType{"a whole number in 0..65535", [](double x) { return is_whole_in(x, 0.0, 65535.0); }};
 
 host::LinkUrl link_from(const TomlSection& section, std::size_t index, const std::string& text) {
     try {
@@ -51,6 +53,8 @@ ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRu
     if (section.has("fov")) settings.fov = Degrees{section.number("fov", kFieldOfView)};
     if (section.has("rate")) settings.rate = scheduler::frame_rate(section.number("rate", kRate));
     if (section.has("threads")) settings.threads = static_cast<int>(section.number("threads", kThreads));
+    for (const TomlSection& entity : section.tables("entity", {"type", "model"}))
+        settings.entities.push_back({static_cast<int>(entity.number("type", kEntityType)), entity.text("model")});
     if (const auto name = section.optional_text("quality")) {
         if (*name != kAutomaticQuality && !step_named(shipped_ladder(), *name))
             section.refuse("quality", quality_names(shipped_ladder()), "\"" + *name + "\"");
@@ -74,6 +78,7 @@ ApplianceSettings combined(ApplianceSettings first, ApplianceSettings second) {
     fill(first.scene, second.scene);
     if (first.links.empty()) first.links = std::move(second.links);
     if (first.sinks.empty()) first.sinks = std::move(second.sinks);
+    if (first.entities.empty()) first.entities = std::move(second.entities);
     fill(first.size, second.size);
     fill(first.fov, second.fov);
     fill(first.rate, second.rate);

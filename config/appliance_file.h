@@ -31,7 +31,13 @@ struct ApplianceSettings {
     std::optional<ImageSize> size;
     std::optional<Degrees> fov;  ///< horizontal field of view, above 0 and below 180
     std::optional<scheduler::FrameRate> rate;
-    std::optional<int> threads;          ///< 1..kMostThreads
+    std::optional<int> threads;  ///< 1..kMostThreads
+    /// What entities of a type look like: a model of config_directory()/models.
+    struct EntityModel {
+        int type = 0;  ///< 0..65535
+        std::string model;
+    };
+    std::vector<EntityModel> entities;
     std::optional<std::string> quality;  ///< a step of the shipped ladder, or kAutomaticQuality
 };
 

@@ -42,6 +42,13 @@ std::vector<Object> read_model(const std::filesystem::path& file) {
     return objects;
 }
 
+Model named_model(const std::string& name) {
+    const std::filesystem::path file = config_directory() / "models" / (name + ".toml");
+    if (!is_plain(name) || !std::filesystem::exists(file))
+        throw FileError(file.parent_path(), 0, "", "expected a model, found none named \"" + name + "\"");
+    return {name, read_model(file)};
+}
+
 void add_models(const TomlSection& document, Names& names, Scene& scene) {
     std::map<std::string, std::vector<Object>> models;
     std::size_t count = 0;

@@ -14,6 +14,10 @@ inline constexpr std::size_t kMostModelObjects = 1000, kMostPlacedObjects = 100'
 /// and hills. Throws FileError.
 std::vector<Object> read_model(const std::filesystem::path& file);
 
+/// A model by its name: a file in config_directory()/models. Throws FileError, with the names there are where there is
+/// none of that name.
+Model named_model(const std::string& name);
+
 /// Puts the objects of the document's models behind those the scene has; `names` are the objects' names so far. Throws
 /// FileError.
 void add_models(const TomlSection& document, Names& names, Scene& scene);

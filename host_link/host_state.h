@@ -1,6 +1,7 @@
 /// The newest thing known of the host, whatever protocol it speaks: every link ends here.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -47,6 +48,15 @@ struct CivilTime {
 
 enum class Mode { standby, operate, debug };
 
+/// An entity other than the ownship, as the host shows it: in scene space, where its newest packet has it.
+struct Entity {
+    std::uint16_t id = 0;
+    std::uint16_t type = 0;
+    ScenePose pose;
+};
+/// Most that are shown at a time; the first to appear count.
+inline constexpr std::size_t kMostShownEntities = 64;
+
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
     Mode mode = Mode::operate;
@@ -60,6 +70,8 @@ struct HostState {
     std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
     std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram
+    std::array<Entity, kMostShownEntities> entities{};
+    std::size_t entity_count = 0;
 };
 
 }  // namespace quadrig::host

@@ -129,6 +129,8 @@ class Session {
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
     void apply(const cigi::IgControl& packet);
     std::optional<GeodeticPose> apply(const cigi::EntityControl& packet);
+    /// Shows an entity where its packet has it, or no longer.
+    void show(const cigi::EntityControl& packet);
     void apply(const cigi::ViewControl& packet);
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);

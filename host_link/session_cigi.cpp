@@ -57,6 +57,7 @@ std::optional<GeodeticPose> Session::apply(const cigi::EntityControl& packet) {
     }
     const auto end = entities_.begin() + static_cast<std::ptrdiff_t>(entity_count_);
     const auto known = std::find_if(entities_.begin(), end, [&](const auto& e) { return e.entity == packet.entity; });
+    show(packet);
     if (known != end) {
         *known = packet;
     } else if (entity_count_ < kMaxEntities) {
@@ -66,6 +67,23 @@ std::optional<GeodeticPose> Session::apply(const cigi::EntityControl& packet) {
         ++statistics_.entities_dropped;
     }
     return std::nullopt;
+}
+
+void Session::show(const cigi::EntityControl& packet) {
+    const GeodeticPosition position{{packet.latitude}, {packet.longitude}, packet.altitude + options_.altitude_offset};
+    const Attitude attitude{{packet.yaw}, {packet.pitch}, {packet.roll}};
+    const auto first = state_.entities.begin(), end = first + static_cast<std::ptrdiff_t>(state_.entity_count);
+    const auto known = std::find_if(first, end, [&](const Entity& e) { return e.id == packet.entity; });
+    const bool sound = in_range(position, attitude);
+    if (!sound && !packet.attached) reject(Reject::out_of_range);
+    if (packet.state != cigi::EntityState::active || packet.attached || !sound) {
+        if (known == end) return;
+        std::move(known + 1, end, known);
+        --state_.entity_count;
+    } else if (known != end || state_.entity_count < kMostShownEntities) {
+        if (known == end) ++state_.entity_count;
+        *known = {packet.entity, packet.type, scene_frame_.pose(position, attitude)};
+    }
 }
 
 bool Session::is_our_view(std::uint16_t view, std::uint8_t group) {

@@ -3,6 +3,7 @@
 
 #include "display/png_file.h"
 #include "host_link/cigi.h"
+#include "host_link/geodesy.h"
 #include "host_link/sun_position.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
@@ -123,4 +124,28 @@ TEST_CASE("The sun stands where the host's date and time put it, and haze is the
     sky.date_time_valid = false;
     check_same(replayed(cigi_message(0, kPose, bytes_of(sky)), true, small_scene()),
                rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+}
+
+TEST_CASE("An entity of the host is drawn as the model that its type stands for, where the host has it") {
+    const Pose pose;
+    host::cigi::EntityControl other;
+    other.entity = 5, other.type = 12, other.yaw = 70.0F, other.roll = 20.0F;
+    // small_scene()'s origin is where the flights are.
+    const GeodeticPosition there = host::SceneFrame({{47.26}, {11.34}, 581.0}).geodetic({{0, 60, 16}});
+    other.latitude = there.latitude.value, other.longitude = there.longitude.value, other.altitude = there.altitude;
+    const Bytes message = cigi_message(0, pose, bytes_of(other));
+    const std::string scene = small_scene();
+    const auto drawn = replayed(message, true, scene, {"--entity", "12=x-29"});
+    const auto expected =
+        rendered(scene + "[[model]]\nmodel = \"x-29\"\nposition = [0, 60, 16]\nattitude = [70, 0, 20]\n", "0,0,14",
+                 "0,0,0", "60");
+    CHECK(difference(drawn, expected).mean < 0.01);
+    CHECK(difference(drawn, replayed(message, true, scene)).mean > 0.3);
+    CHECK(difference(replayed(message, true, scene, {"--entity", "13=x-29"}), replayed(message, true, scene)).largest ==
+          0);
+    const Outcome unknown = quadrig_program({"replay", recording({message, message}, 8004), "--scene",
+                                             scratch_file("s.toml", scene), "--entity", "12=zeppelin"});
+    CHECK(unknown.status == 1);
+    CHECK_THAT(unknown.err, Catch::Contains("zeppelin"));
+    CHECK(quadrig_program({"replay", "x.pcap", "--entity", "x-29"}).status == 2);
 }

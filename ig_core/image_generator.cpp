@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "ig_core/scene/motion.h"
+#include "ig_core/select.h"
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"
+#include "ig_core/strip_index.h"
 #include "ig_core/workers.h"
 
 namespace quadrig {
@@ -31,37 +32,6 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 
 int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
 
-/// Which of some things show on each strip of rows. Keeps its memory.
-class StripIndex {
-  public:
-    /// `strips_of(i)` is the first and the last strip of thing i; none where last < first.
-    template <class StripsOf>
-    void sort(int strips, std::size_t count, StripsOf&& strips_of) {
-        begin_.assign(static_cast<std::size_t>(strips) + 1, 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto [from, to] = strips_of(i);
-            for (int s = from; s <= to; ++s) ++begin_[static_cast<std::size_t>(s) + 1];
-        }
-        for (std::size_t s = 1; s < begin_.size(); ++s) begin_[s] += begin_[s - 1];
-        things_.resize(begin_.back());
-        for (std::size_t i = count; i-- > 0;) {
-            const auto [from, to] = strips_of(i);
-            // Filled from the back, so that begin_ ends up where each strip starts.
-            for (int s = from; s <= to; ++s)
-                things_[--begin_[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
-        }
-        std::rotate(begin_.begin(), begin_.begin() + 1, begin_.end());
-        begin_.back() = static_cast<std::uint32_t>(things_.size());
-    }
-    [[nodiscard]] std::span<const std::uint32_t> on(int strip) const {
-        const auto s = static_cast<std::size_t>(strip);
-        return {things_.data() + begin_[s], begin_[s + 1] - begin_[s]};
-    }
-
-  private:
-    std::vector<std::uint32_t> begin_, things_;
-};
-
 /// Scratch of one worker; nothing in it survives a row but its memory.
 struct RowWorker {
     RowSweep sweep;
@@ -75,6 +45,7 @@ struct ImageGenerator::Impl {
     Impl(Scene s, int threads) : scene(std::move(s)), workers(threads), row_workers(static_cast<std::size_t>(threads)) {
         solids.reserve(scene.objects.size());
         for (const Object& object : scene.objects) solids.push_back(make_solid(object));
+        for (const Solid& solid : solids) spheres.push_back({solid.anchor.metres, solid.radius});
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
             if (scene.objects[i].motion) moving.push_back({i, solids[i]});
         for (const Model& model : scene.models) {
@@ -101,6 +72,7 @@ struct ImageGenerator::Impl {
     std::vector<RowWorker> row_workers;
     std::vector<Solid> solids;  // of the scene's objects, then of the models that the host has placed; only ever grows
     std::size_t solid_count = 0;
+    std::vector<BoundingSphere> spheres;  // of the solids
     struct Moving {
         std::uint32_t object;
         Solid at_rest;
@@ -120,14 +92,19 @@ struct ImageGenerator::Impl {
 };
 
 void ImageGenerator::Impl::move_objects(const Environment& environment) {
+    const auto put = [&](std::size_t at, const Solid& at_rest, const ScenePose& pose) {
+        move(at_rest, pose, solids[at]);
+        spheres[at] = {solids[at].anchor.metres, solids[at].radius};
+    };
     for (const Moving& object : moving)
-        move(object.at_rest, pose_at(scene.objects[object.object], environment.seconds), solids[object.object]);
+        put(object.object, object.at_rest, pose_at(scene.objects[object.object], environment.seconds));
     solid_count = scene.objects.size();
     for (const PlacedModel& body : environment.bodies) {
         if (body.model >= models.size()) continue;
         for (std::size_t i = 0; i < models[body.model].size(); ++i, ++solid_count) {
-            if (solids.size() <= solid_count) solids.emplace_back(), paints.objects.emplace_back();
-            move(models[body.model][i], body.pose, solids[solid_count]);
+            if (solids.size() <= solid_count)
+                solids.emplace_back(), spheres.emplace_back(), paints.objects.emplace_back();
+            put(solid_count, models[body.model][i], body.pose);
             paints.objects[solid_count] = paints.models[body.model][i];
         }
     }
@@ -137,10 +114,12 @@ void ImageGenerator::Impl::select(const View& view) {
     const ImagePlane& image = view.image;
     const auto count = static_cast<int>(solid_count);
     may_be_seen.resize(solid_count);
+    const auto walls = walls_of(view);
     const auto task = [&](int block, int) {
         const int end = std::min(count, (block + 1) * kSelectBlock);
         for (int i = block * kSelectBlock; i < end; ++i)
             may_be_seen[static_cast<std::size_t>(i)] =
+                spheres[static_cast<std::size_t>(i)].reaches_into(walls) &&
                 may_be_in_view(solids[static_cast<std::size_t>(i)], view.eye, view.eye_from_scene, image.left,
                                image.x(image.width), image.z(image.height), image.top);
     };

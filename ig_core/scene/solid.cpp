@@ -270,6 +270,35 @@ bool endless(const Solid& solid) {
     return false;
 }
 
+/// Radius of a sphere about the anchor that holds a solid whose quadric goes on for ever: in it Q <= 0 and P_i, P_j >
+/// 0, so Q - t P_i P_j <= 0 for every t >= 0, and where that form is positive definite it is an ellipsoid. This closes
+/// hills, cylinders and cones between two of their planes. Infinity where it closes nothing.
+double radius_between_planes(const Solid& solid) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < solid.planes.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const SolidPlane &a = solid.planes[i], &b = solid.planes[j];
+            for (const double t : {0.5, 2.0, 8.0}) {
+                const Sym3 m = solid.m - 0.5 * t * outer(a.normal, b.normal);
+                const Sym3 adjugate{m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+                                    m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy, m.xy * m.xz - m.yz * m.xx};
+                const double determinant = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
+                constexpr double kClearlyDefinite = 1e-9;  // the largest entry of M is about 1
+                if (!(m.xx > kClearlyDefinite && adjugate.zz > kClearlyDefinite && determinant > kClearlyDefinite))
+                    continue;
+                const glm::dvec3 w = solid.w - 0.5 * t * (b.offset * a.normal + a.offset * b.normal);
+                const glm::dvec3 centre = (-1.0 / determinant) * (adjugate * w);
+                const double at_centre = solid.c - t * a.offset * b.offset + glm::dot(w, centre);
+                const double trace = adjugate.xx + adjugate.yy + adjugate.zz;
+                const double reach = std::sqrt(std::max(0.0, -at_centre) * trace / determinant);
+                constexpr double kRounding = 1e-6;
+                least = std::min(least, (glm::length(centre) + reach) * (1.0 + kRounding));
+            }
+        }
+    }
+    return least;
+}
+
 }  // namespace
 
 double Solid::quadric_at(const ScenePoint& p) const {
@@ -295,6 +324,7 @@ Solid make_solid(const Object& object) {
     if (const auto* hill = std::get_if<Hill>(&object.shape)) set_hill(*hill, solid);
     if (const auto* general = std::get_if<GeneralQuadric>(&object.shape)) set_general(*general, object.planes, solid);
     for (std::size_t j = 0; j < object.planes.size(); ++j) add_plane(object.planes[j], static_cast<int>(j) + 1, solid);
+    if (!solid.ellipsoid) solid.radius = radius_between_planes(solid);
     solid.may_be_endless = endless(solid);
     return solid;
 }

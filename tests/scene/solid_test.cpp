@@ -156,6 +156,47 @@ TEST_CASE("an ellipsoid's radius holds it, and is infinite where nothing holds a
     Object hill;
     hill.shape = Hill{};
     CHECK(std::isinf(make_solid(hill).radius));
+    Object open_cylinder;
+    open_cylinder.shape = GeneralQuadric{{1, 1, 0, 0, 0, 0, 0, 0, 0, -9}};
+    CHECK(std::isinf(make_solid(open_cylinder).radius));
+}
+
+TEST_CASE("no point of a hill, cylinder or cone between planes lies outside its bounding sphere") {
+    CAPTURE(seed());
+    int closed = 0, inside = 0;
+    for (int trial = 0; trial < trials(300); ++trial) {
+        Randomness random(trial);
+        const glm::dvec3 middle = random.vector(1000);
+        const double size = random.log_between(1, 100), slope = random.between(0.3, 2);
+        const auto level = [&](double up, double at) {
+            return BoundingPlane{{0.1, 0.05, up, -up * at - 0.1 * middle.x - 0.05 * middle.y}};
+        };
+        Object object;
+        if (random.chance(0.4)) {
+            object.shape = Hill{{middle}, size, slope};
+        } else {
+            const double cone = random.chance(0.5) ? slope : 0, r2 = cone > 0 ? 0 : size * size;
+            const double x = middle.x, y = middle.y, z = middle.z;
+            object.shape = GeneralQuadric{{1, 1, -cone * cone, 0, 0, 0, -2 * x, -2 * y, 2 * cone * cone * z,
+                                           x * x + y * y - cone * cone * z * z - r2}};
+            object.planes.push_back(level(-1, middle.z - 0.1 * size));
+        }
+        object.planes.push_back(level(1, middle.z - random.between(0.5, 3) * size));
+        const Solid solid = make_solid(object);
+        if (!std::isfinite(solid.radius)) continue;
+        ++closed;
+        for (int i = 0; i < 300; ++i) {
+            const ScenePoint p{middle + random.vector(6 * size)};
+            bool in = solid.quadric_at(p) <= 0;
+            for (const SolidPlane& plane : solid.planes) in = in && solid.plane_at(plane, p) > 0;
+            if (!in) continue;
+            ++inside;
+            CAPTURE(trial);
+            REQUIRE(glm::distance(p.metres, solid.anchor.metres) <= solid.radius);
+        }
+    }
+    CHECK(closed > trials(300) / 2);
+    CHECK(inside > closed);
 }
 
 TEST_CASE("the limb function's scale is |Q(centre)|, and 0 where there is no centre or Q vanishes there") {

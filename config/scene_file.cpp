@@ -58,8 +58,8 @@ Scene read_scene(const std::filesystem::path& file) {
         scene.haze = read_haze(*haze, scene.sky);
 
     Textures textures;
-    for (const auto& section : root.tables(
-             "texture", {"name", "coefficients", "frequencies", "phases", "vertical", "drift", "pattern", "scale"}))
+    for (const auto& section : root.tables("texture", {"name", "coefficients", "frequencies", "phases", "vertical",
+                                                       "drift", "rise", "churn", "pattern", "scale"}))
         textures.read(section);
     if (const auto ground = root.optional_table("ground", {"colour", "texture", "texture_weight"})) {
         scene.ground = Ground{read_paint(*ground, textures)};

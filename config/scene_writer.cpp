@@ -74,6 +74,8 @@ void write_texture(std::ostream& out, const Texture& texture) {
         << "\nfrequencies = " << Numbers(frequencies) << "\nphases = " << Numbers(phases)
         << "\nvertical = " << Exact{texture.vertical}
         << "\ndrift = " << Numbers(std::array{texture.drift.x, texture.drift.y}) << '\n';
+    if (texture.rise != 0.0) out << "rise = " << Exact{texture.rise} << '\n';
+    if (texture.churn != 0.0) out << "churn = " << Exact{texture.churn} << '\n';
 }
 
 struct ShapeWriter {

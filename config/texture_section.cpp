@@ -31,6 +31,14 @@ std::vector<TextureTerm> read_terms(const TomlSection& section) {
     return terms;
 }
 
+/// Vertical variation, and what moves with time; what is absent stays.
+void read_movement(const TomlSection& section, Texture& texture) {
+    texture.vertical = section.number_or("vertical", kNotNegative, texture.vertical);
+    if (section.has("drift")) texture.drift = section.pair("drift", kAnyNumber);
+    texture.rise = section.number_or("rise", kAnyNumber, texture.rise);
+    texture.churn = section.number_or("churn", kAnyNumber, texture.churn);
+}
+
 const Texture* named(const std::vector<Texture>& textures, const std::string& name) {
     const auto found =
         std::find_if(textures.begin(), textures.end(), [&](const Texture& texture) { return texture.name == name; });
@@ -64,13 +72,12 @@ std::vector<Texture> read_patterns() {
     const TomlSection root(file, document, "", {"texture"});
     std::vector<Texture> patterns;
     Names names;
-    for (const auto& section :
-         root.tables("texture", {"name", "coefficients", "frequencies", "phases", "vertical", "drift"})) {
+    for (const auto& section : root.tables(
+             "texture", {"name", "coefficients", "frequencies", "phases", "vertical", "drift", "rise", "churn"})) {
         patterns.push_back({section.text("name"), read_terms(section)});
         Texture& pattern = patterns.back();
         take_name(section, pattern.name, names);
-        pattern.vertical = section.number_or("vertical", kNotNegative, pattern.vertical);
-        if (section.has("drift")) pattern.drift = section.pair("drift", kAnyNumber);
+        read_movement(section, pattern);
     }
     return patterns;
 }
@@ -84,8 +91,7 @@ void Textures::read(const TomlSection& section) {
         texture.terms = read_terms(section);
     texture.name = section.text("name");
     take_name(section, texture.name, names_);
-    texture.vertical = section.number_or("vertical", kNotNegative, texture.vertical);
-    if (section.has("drift")) texture.drift = section.pair("drift", kAnyNumber);
+    read_movement(section, texture);
     indices_.emplace(texture.name, static_cast<std::uint32_t>(list_.size()));
     list_.push_back(std::move(texture));
 }

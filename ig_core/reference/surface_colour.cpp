@@ -12,11 +12,13 @@ double texturing_function(const Texture& texture, const ScenePoint& point, doubl
     constexpr double pi = std::numbers::pi;
     const glm::dvec3& p = point.metres;
     double east = 0.0, north = 0.0, coefficients = 0.0;
-    for (const auto& [c, w, phase] : texture.terms) {
+    const double up = p.z - texture.rise * seconds;
+    for (const auto& [c, w, start] : texture.terms) {
+        const double phase = start + texture.churn * seconds;
         const double px = pi / 2 * std::sin(w * p.y / 2 + phase) +
-                          pi * texture.vertical * std::sin(w * p.z / 2 + phase) + w * texture.drift.x * seconds;
+                          pi * texture.vertical * std::sin(w * up / 2 + phase) + w * texture.drift.x * seconds;
         const double py = pi / 2 * std::sin(w * p.x / 2 + phase) +
-                          pi * texture.vertical * std::cos(w * p.z / 2 + phase) + w * texture.drift.y * seconds;
+                          pi * texture.vertical * std::cos(w * up / 2 + phase) + w * texture.drift.y * seconds;
         east += c * (std::sin(w * p.x + px) + 1) / 2;
         north += c * (std::sin(w * p.y + py) + 1) / 2;
         coefficients += c;

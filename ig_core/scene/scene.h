@@ -29,6 +29,8 @@ struct Texture {
     std::vector<TextureTerm> terms;  ///< 1..kMaxTextureTerms, sum of coefficients > 0, in file order
     double vertical = 0.0;           ///< vertical variation u >= 0
     glm::dvec2 drift{0.0};           ///< m/s, east and north
+    double rise{};                   ///< m/s upwards, seen by vertical variation
+    double churn{};                  ///< rad/s added to all phases: the pattern changes in place
 };
 
 /// Thresholds of the texturing function below which a surface is a hole (2.2): limb_threshold >= threshold, softness >

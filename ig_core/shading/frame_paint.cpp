@@ -82,13 +82,14 @@ void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, co
         paints.textures[i].count = std::max(std::min(terms, 1), terms - std::max(0, quality.terms_left_out));
         paints.textures[i].sine = quality.sine;
         for (std::size_t k = 0; k < texture.terms.size(); ++k) {
-            const double w = paints.terms[i][k].frequency, p = paints.terms[i][k].phase;
+            const double w = paints.terms[i][k].frequency;
+            const double p = paints.terms[i][k].phase + texture.churn * seconds;
             FrameTexture::Term& out = paints.textures[i].terms[k];
             out.along_x = turns(w * (eye.metres.x + texture.drift.x * seconds));
             out.along_y = turns(w * (eye.metres.y + texture.drift.y * seconds));
             out.half_x = turns(0.5 * w * eye.metres.x + p);
             out.half_y = turns(0.5 * w * eye.metres.y + p);
-            out.half_z = turns(0.5 * w * eye.metres.z + p);
+            out.half_z = turns(0.5 * w * (eye.metres.z - texture.rise * seconds) + p);
         }
     }
 }

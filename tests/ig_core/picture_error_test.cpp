@@ -140,3 +140,18 @@ TEST_CASE("drift carries a texture along with scene time, far into a flight") {
         CHECK_FALSE(render(scene, view, environment) == at_start);
     }
 }
+
+TEST_CASE("a pattern rises and changes with scene time as the reference has it") {
+    Scene scene = one_tree();
+    const View view = look({0, 60, 4}, {{0}, {3}, {0}}, 96, 72, 30);
+    const Picture still = render(scene, view, {8, {}, {}, {}});
+    const double psnr_at_rest = picture_error(scene, view, {8, {}, {}, {}}).psnr;
+    for (const bool rises : {false, true}) {
+        (rises ? scene.textures[1].rise : scene.textures[1].churn) = 0.7;
+        const Environment environment{8, {}, {}, {}};
+        const Error error = picture_error(scene, view, environment);
+        CAPTURE(rises, error.psnr, psnr_at_rest);
+        CHECK(error.psnr > psnr_at_rest - 1);
+        CHECK_FALSE(render(scene, view, environment) == still);
+    }
+}

@@ -16,11 +16,12 @@ namespace {
 double eq_15(const Texture& texture, const glm::dvec3& p, double t, std::size_t terms = kMaxTextureTerms) {
     using Real = long double;
     constexpr Real pi = std::numbers::pi_v<Real>;
-    const Real x = p.x, y = p.y, z = p.z, u = texture.vertical, vx = texture.drift.x, vy = texture.drift.y;
+    const Real x = p.x, y = p.y, z = p.z - texture.rise * t, u = texture.vertical, vx = texture.drift.x,
+               vy = texture.drift.y;
     Real sum_x = 0, sum_y = 0, sum = 0;
     for (std::size_t i = 0; i < texture.terms.size(); ++i) {
         const TextureTerm& term = texture.terms[i];
-        const Real c = term.coefficient, w = term.frequency, phase = term.phase;
+        const Real c = term.coefficient, w = term.frequency, phase = term.phase + texture.churn * t;
         const Real px = pi / 2 * std::sin(w * y / 2 + phase) + pi * u * std::sin(w * z / 2 + phase) + w * vx * t;
         const Real py = pi / 2 * std::sin(w * x / 2 + phase) + pi * u * std::cos(w * z / 2 + phase) + w * vy * t;
         sum_x += c * ((i < terms ? std::sin(w * x + px) : 0) + 1) / 2;
@@ -37,6 +38,8 @@ Texture random_texture(Randomness& random) {
         texture.terms.push_back({random.between(0.1, 1), random.log_between(0.01, 30), random.between(-10, 10)});
     if (random.chance(0.6)) texture.vertical = random.between(0, 1);
     if (random.chance(0.5)) texture.drift = {random.between(-20, 20), random.between(-20, 20)};
+    if (random.chance(0.3)) texture.rise = random.between(-5, 5);
+    if (random.chance(0.3)) texture.churn = random.between(-2, 2);
     return texture;
 }
 

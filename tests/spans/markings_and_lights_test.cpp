@@ -26,7 +26,7 @@ GroundPolygon polygon_about(const glm::dvec2& middle, double radius, const Colou
 
 double psnr(const Scene& scene, const View& view, const Quality& quality = {}) {
     Picture picture = render(scene, view, {}, quality);
-    const reference::LinearImage exact = reference::picture(scene, view, {}, 12);
+    const reference::LinearImage exact = reference::picture(scene, view, {}, 8);
     return reference::picture_error({picture.rgba.data(), picture.width, picture.height, 4 * picture.width}, exact)
         .psnr();
 }
@@ -64,7 +64,7 @@ TEST_CASE("polygons of the ground are drawn where the reference has them, from a
         scene.objects.push_back(ball({20, 120, 0}, 15));
         const View view =
             look({random.between(-20, 20), 0, random.log_between(2, 200)},
-                 {{random.between(-30, 30)}, {random.between(-40, 3)}, {random.between(-30, 30)}}, 120, 90, 70);
+                 {{random.between(-30, 30)}, {random.between(-40, 3)}, {random.between(-30, 30)}}, 80, 60, 70);
         Quality quality;
         quality.sub_scan_lines = 4;
         CAPTURE(trial);
@@ -101,8 +101,8 @@ TEST_CASE("lights are drawn as the reference draws them, behind and in front of 
             if (random.chance(0.3)) light.beam = LightPoint::Beam{{random.between(90, 270)}, {90}};
             scene.lights.push_back(light);
         }
-        const View view = look({0, 0, random.between(3, 40)},
-                               {{0}, {random.between(-10, 2)}, {random.between(-20, 20)}}, 160, 120, 60);
+        const View view =
+            look({0, 0, random.between(3, 40)}, {{0}, {random.between(-10, 2)}, {random.between(-20, 20)}}, 80, 60, 60);
         Quality quality;
         quality.sub_scan_lines = 8;
         CAPTURE(trial);

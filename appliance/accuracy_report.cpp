@@ -12,6 +12,7 @@ namespace {
 
 std::vector<const SettingResult*> by_cost(const std::vector<SettingResult>& results) {
     std::vector<const SettingResult*> sorted;
+    sorted.reserve(results.size());
     for (const SettingResult& result : results) sorted.push_back(&result);
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->cost < b->cost; });
     return sorted;

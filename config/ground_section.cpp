@@ -75,7 +75,7 @@ clusters::Runway read_runway(const TomlSection& section, Textures& textures) {
     runway.markings = section.flag_or("markings", true);
     if (section.has("marking_colour")) runway.marking_colour = section.triple("marking_colour", kColour);
     if (const auto lights = section.optional_table("lights", {"intensity", "spacing", "approach"})) {
-        clusters::Runway::Lights& l = runway.lights.emplace();
+        clusters::RunwayLights& l = runway.lights.emplace();
         l.intensity = lights->number_or("intensity", kIntensity, l.intensity);
         l.spacing = lights->number_or("spacing", kSpacing, l.spacing);
         l.approach = lights->number_or("approach", kApproach, l.approach);

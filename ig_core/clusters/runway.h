@@ -9,6 +9,13 @@
 
 namespace quadrig::clusters {
 
+/// Edge, threshold and end lights at both ends.
+struct RunwayLights {
+    double intensity = 20.0;  ///< times white
+    double spacing = 60.0;    ///< m, along the edges
+    double approach = 0.0;    ///< m, length of the approach lights before the threshold
+};
+
 struct Runway {
     glm::dvec2 threshold{0.0};  ///< middle of the threshold, scene X and Y
     Degrees heading;            ///< of a take-off from that threshold, clockwise from north
@@ -17,13 +24,7 @@ struct Runway {
     Paint paint{Colour{0.09, 0.09, 0.1}, {}, 0.0, {}};
     bool markings = true;
     Colour marking_colour{0.8, 0.8, 0.8};
-    /// Edge, threshold and end lights at both ends; none where absent.
-    struct Lights {
-        double intensity = 20.0;  ///< times white
-        double spacing = 60.0;    ///< m, along the edges
-        double approach = 0.0;    ///< m, length of the approach lights before the threshold
-    };
-    std::optional<Lights> lights;
+    std::optional<RunwayLights> lights;
 };
 
 /// Threshold stripes for the width, centre line, aiming point, touchdown zone and side stripes at both ends.

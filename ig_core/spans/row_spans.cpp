@@ -103,15 +103,15 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
 void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
                       std::vector<RowSpan>& spans) {
     const auto surface_of = [&](int surface) {
-        return Surface{surface == 0 ? Surface::Kind::quadric : Surface::Kind::face,
-                       opaque,
-                       surface,
-                       index,
-                       outline.object,
-                       &outline,
-                       {},
-                       outline.near_u,
-                       outline.far_u};
+        Surface out;
+        out.kind = surface == 0 ? Surface::Kind::quadric : Surface::Kind::face;
+        out.opaque = opaque;
+        out.surface = surface;
+        out.index = index;
+        out.priority = outline.object;
+        out.outline = &outline;
+        out.near_u = outline.near_u, out.far_u = outline.far_u;
+        return out;
     };
     if (outline.limb_only) {
         RowSpan& span = spans.emplace_back();

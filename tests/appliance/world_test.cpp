@@ -64,7 +64,7 @@ TEST_CASE("Gallery draws every scene that travels along, and a page of them") {
     for (const char* figure :
          {"05_sphere_with_six_planes", "06_texture_on_the_ground", "07_cloud_layer", "08a_mountains_without_texture",
           "08b_mountains_with_texture", "09_trees_clouds_and_hills", "10_hills_and_trees", "11_hills_trees_and_clouds",
-          "12_x29_above_clouds", "13_coast_at_dawn", "14_mountains_above_the_clouds"}) {
+          "12_x29_above_clouds", "13_coast_at_dawn", "14_mountains_above_the_clouds", "15_approach_in_mist"}) {
         INFO(figure);
         const display::Picture picture = display::read_png(directory / (std::string(figure) + ".png"));
         ++pictures;

@@ -18,7 +18,7 @@ Runway random_runway(Randomness& random) {
     runway.heading = {random.between(-180, 360)};
     runway.length = random.between(600, 4000);
     runway.width = random.between(18, 60);
-    runway.lights = Runway::Lights{20, random.between(30, 60), 900};
+    runway.lights = RunwayLights{20, random.between(30, 60), 900};
     return runway;
 }
 

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "tests/bench/gl_peer/polytope.h"
+
 namespace quadrig::gl_peer {
 namespace {
 
@@ -25,8 +27,10 @@ void extend(std::vector<Batch>& batches, unsigned variant, int object) {
 
 FrameObjects::FrameObjects(const Scene& scene) : scene_(scene) {
     for (const Object& object : scene.objects) {
-        Drawable drawable{make_solid(object), {}, &object.paint, kPlain, false};
+        Drawable drawable{make_solid(object), {}, {}, &object.paint, kPlain, false};
         drawable.bounds = bounding_ellipsoid(drawable.solid, object.shape);
+        if (drawable.bounds && !drawable.solid.ellipsoid)
+            drawable.corners = polytope_about(drawable.solid, object.shape, *drawable.bounds);
         drawable.variant =
             (drawable.solid.planes.empty() ? kPlain : kWithPlanes) | (drawable.solid.ellipsoid ? kPlain : kGeneral);
         drawable.translucent = object.paint.texture && object.paint.translucence;
@@ -40,7 +44,9 @@ const FrameRecords& FrameObjects::look(const View& view) {
         const Drawable& drawable = drawables_[i];
         Seen seen{i, {}, 0.0, 0};
         if (drawable.bounds) {
-            const auto extent = extent_on(view, *drawable.bounds);
+            auto extent = extent_on(view, *drawable.bounds);
+            if (extent && !drawable.corners.empty())
+                extent = narrowed(*extent, view, drawable.solid.anchor, drawable.corners);
             if (!extent) continue;
             seen.extent = *extent;
         }

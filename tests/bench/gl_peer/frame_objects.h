@@ -48,6 +48,7 @@ class FrameObjects {
     struct Drawable {
         Solid solid;
         std::optional<BoundingEllipsoid> bounds;
+        std::vector<glm::dvec3> corners;  ///< of a polytope about it; none for ellipsoids
         const Paint* paint = nullptr;
         unsigned variant = kPlain;
         bool translucent = false;

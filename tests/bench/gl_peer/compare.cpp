@@ -29,6 +29,7 @@ struct Options {
     std::string size = "1920x1080";
     int width = 0, height = 0;
     int runs = 5, reference = 0;
+    bool forward = false;
     int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -50,7 +51,9 @@ struct Contestants {
     ImageGenerator generator;
     GlPeer peer;
     Contestants(const Scene& scene, const Options& o)
-        : channel(o.width, o.height), generator(scene, o.threads), peer(scene, o.width, o.height) {}
+        : channel(o.width, o.height),
+          generator(scene, o.threads),
+          peer(scene, o.width, o.height, o.forward ? Shading::forward : Shading::deferred) {}
 };
 
 nlohmann::ordered_json compare(Contestants& c, const View& view, const Options& options, std::size_t camera) {
@@ -103,6 +106,7 @@ void run(const Options& options) {
                                   {"threads", options.threads},
                                   {"simd", ImageGenerator::simd_target()},
                                   {"peer", contestants.peer.renderer()},
+                                  {"peer_shading", options.forward ? "forward" : "deferred"},
                                   {"reference_samples", options.reference}};
     std::printf("camera  ours ms  peer ms  ratio  PSNR ours/peer  at pixel centres  ours/exact  peer/exact\n");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -141,6 +145,8 @@ int main(int count, char** words) {
     program
         .add_option("--reference", options.reference, "Compare with the exact picture of N x N samples a pixel; slow")
         ->check(CLI::Range(1, 64));
+    program.add_flag("--forward", options.forward,
+                     "The peer paints opaque surfaces with their impostors, not afterwards");
     program.add_option("--json", options.json, "Write the figures to FILE");
     program.add_option("--png", options.png, "Write both pictures to DIRECTORY");
     CLI11_PARSE(program, count, words);

@@ -69,9 +69,7 @@ const FrameRecords& FrameObjects::look(const View& view) {
 
 void FrameObjects::add_batches(const View& view) {
     records_.objects.clear(), records_.planes.clear(), records_.opaque.clear(), records_.translucent.clear();
-    records_.objects.insert(records_.objects.end(), 16, 0.0F);
-    add_paint(scene_.ground ? scene_.ground->paint : Paint{});
-    records_.objects.insert(records_.objects.end(), 8, 0.0F);
+    add_plane(view, 0.0, scene_.ground ? scene_.ground->paint : Paint{});
     int record = 1;
     for (const Seen& seen : opaque_) {
         add_record(view, seen);
@@ -94,7 +92,7 @@ void FrameObjects::add_batches(const View& view) {
         const auto nearer = std::count_if(decks.begin() + static_cast<std::ptrdiff_t>(i) + 1, decks.end(),
                                           [&](const auto* d) { return (d->altitude >= view.eye.metres.z) == above; });
         draw_objects_behind(static_cast<int>(nearer) + 1);
-        add_deck(view, *decks[i]);
+        add_plane(view, decks[i]->altitude, decks[i]->paint);
         records_.translucent.push_back({kPlain, true, record++, 1});
     }
     draw_objects_behind(0);
@@ -107,10 +105,10 @@ void FrameObjects::add_paint(const Paint& paint) {
                               holes.limb_threshold, holes.softness});
 }
 
-void FrameObjects::add_deck(const View& view, const CloudDeck& deck) {
-    append(records_.objects, {0, 0, view.eye.metres.z - deck.altitude, 0});
+void FrameObjects::add_plane(const View& view, double altitude, const Paint& paint) {
+    append(records_.objects, {0, 0, view.eye.metres.z - altitude, 0});
     records_.objects.insert(records_.objects.end(), 12, 0.0F);
-    add_paint(deck.paint);
+    add_paint(paint);
     records_.objects.insert(records_.objects.end(), 8, 0.0F);
 }
 

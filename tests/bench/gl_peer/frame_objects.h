@@ -26,7 +26,7 @@ struct Batch {
 ///   anchor, c;  M xx yy zz, |Q(centre)|;  M xy xz yz, first plane;  w, number of planes;
 ///   colour, texture weight;  texture (-1: none), threshold, limb threshold, softness;
 ///   left, bottom, right, top of what it covers (-1..1);  depth buffer's nearest value, 0, 0, 0
-/// Record 0 is the ground's paint. A cloud deck's anchor is (0, 0, height of the eye above it). A plane is a vec4 at
+/// Record 0 is the ground. Its anchor, and a cloud deck's, is (0, 0, height of the eye above it). A plane is a vec4 at
 /// the eye: n.p + w > 0 is kept.
 struct FrameRecords {
     std::vector<float> objects, planes;
@@ -61,7 +61,7 @@ class FrameObjects {
     };
     void add_record(const View& view, const Seen& seen);
     void add_paint(const Paint& paint);
-    void add_deck(const View& view, const CloudDeck& deck);
+    void add_plane(const View& view, double altitude, const Paint& paint);
     void add_batches(const View& view);
 
     const Scene& scene_;

@@ -36,10 +36,10 @@ class GlContext {
     std::unique_ptr<void, Deleter> context_;
 };
 
-/// Compiles and links a program of files in shaders/, `defines` among "PLANES", "GENERAL", "HOLES", "LAST". Both stages
-/// see frame.glsl; `fragment` is put together from several files, the last one with main(). Blocks Frame and Textures
-/// are bound to 0 and 1, samplers `objects`, `planes`, `seen` and `picture` to units 0 to 3. Throws std::runtime_error
-/// with the compiler's words.
+/// Compiles and links a program of files in shaders/, `defines` among "PLANES", "GENERAL", "HOLES", "LAST", "FORWARD".
+/// Both stages see frame.glsl; `fragment` is put together from several files, the last one with main(). Blocks Frame
+/// and Textures are bound to 0 and 1, samplers `objects`, `planes`, `seen` and `picture` to units 0 to 3. Throws
+/// std::runtime_error with the compiler's words.
 unsigned make_program(const std::string& vertex, std::initializer_list<std::string> fragment,
                       const std::vector<std::string>& defines);
 

@@ -85,38 +85,48 @@ void fill_block(unsigned buffer, unsigned place, const std::vector<float>& value
     glBindBufferBase(GL_UNIFORM_BUFFER, place, buffer);
 }
 
-std::vector<std::string> defines_of(unsigned variant, bool holes) {
+std::vector<std::string> defines_of(unsigned variant, bool holes, bool forward) {
     std::vector<std::string> defines;
     if ((variant & kWithPlanes) != 0) defines.emplace_back("PLANES");
     if ((variant & kGeneral) != 0) defines.emplace_back("GENERAL");
     if (holes) defines.emplace_back("HOLES");
+    if (forward) defines.emplace_back("FORWARD");
     return defines;
 }
 
 }  // namespace
 
 struct GlPeer::Impl {
-    Impl(const Scene& s, int width, int height)
+    Impl(const Scene& s, int width, int height, Shading shading)
         : scene(scene_at(drawable(s), 0.0)),
           objects(scene),
           context(width, height),
           records(kObjects),
-          planes(kPlanes) {
+          planes(kPlanes),
+          forward(shading == Shading::forward) {
         const unsigned depth = make_depth(width, height);
         seen = make_target(width, height, GL_RG32UI, kSeen, depth);
         picture = make_target(width, height, GL_RGBA16F, kPicture, depth);
         glGenBuffers(2, blocks.data());
         glGenVertexArrays(1, &no_attributes);
         glBindVertexArray(no_attributes);
+        const auto painted = [&](const char* vertex, std::initializer_list<std::string> fragment, unsigned variant,
+                                 bool holes) {
+            return make_program(vertex, fragment, defines_of(variant, holes, forward));
+        };
         for (unsigned variant = 0; variant < kVariants; ++variant) {
-            opaque[variant] = make_program("quads.vert", {"entry.glsl", "opaque.frag"}, defines_of(variant, false));
-            translucent[variant] =
-                make_program("quads.vert", {"entry.glsl", "paint.glsl", "translucent.frag"}, defines_of(variant, true));
+            const auto solids = {std::string("entry.glsl"), std::string("paint.glsl"), std::string("translucent.frag")};
+            opaque[variant] = forward ? painted("quads.vert", solids, variant, false)
+                                      : painted("quads.vert", {"entry.glsl", "opaque.frag"}, variant, false);
+            translucent[variant] = painted("quads.vert", solids, variant, true);
         }
-        ground = make_program("whole_picture.vert", {"ground.frag"}, {});
+        const auto plane = {std::string("paint.glsl"), std::string("deck.frag")};
+        deck = painted("whole_picture.vert", plane, kPlain, true);
+        ground = forward ? painted("whole_picture.vert", plane, kPlain, false)
+                         : painted("whole_picture.vert", {"ground.frag"}, kPlain, false);
+        sky = make_program("whole_picture.vert", {"sky.frag"}, {});
         shade = make_program("whole_picture.vert", {"paint.glsl", "shade.frag"}, {});
         shade_last = make_program("whole_picture.vert", {"paint.glsl", "shade.frag"}, {"LAST"});
-        deck = make_program("whole_picture.vert", {"paint.glsl", "deck.frag"}, {"HOLES"});
         encode = make_program("whole_picture.vert", {"paint.glsl", "encode.frag"}, {});
         // From 0 (far away) to 1 (near): inverse depth in floating point loses nothing far away.
         const auto clip_control = reinterpret_cast<PFNGLCLIPCONTROLPROC>(OSMesaGetProcAddress("glClipControl"));
@@ -139,22 +149,26 @@ struct GlPeer::Impl {
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, batch.count);
     }
 
-    void find_what_is_seen(const FrameRecords& frame) const {
-        glBindFramebuffer(GL_FRAMEBUFFER, seen.frame_buffer);
-        const std::array<unsigned, 4> nothing{};
+    void draw_opaque(const FrameRecords& frame) const {
         glDepthMask(GL_TRUE);
-        glClearBufferuiv(GL_COLOR, 0, nothing.data());
         glClear(GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GREATER);
-        if (scene.ground) cover_picture(ground);
         for (const Batch& batch : frame.opaque) draw(opaque[batch.variant], batch);
+        if (scene.ground) draw(ground, {kPlain, true, 0, 1});
+        glDisable(GL_DEPTH_TEST);
     }
-    void blend_translucent(const FrameRecords& frame) const {
+    void find_what_is_seen(const FrameRecords& frame) const {
+        glBindFramebuffer(GL_FRAMEBUFFER, seen.frame_buffer);
+        const std::array<unsigned, 4> nothing{};
+        glClearBufferuiv(GL_COLOR, 0, nothing.data());
+        draw_opaque(frame);
+    }
+    void draw_translucent(const FrameRecords& frame) const {
         glEnable(GL_BLEND);
         glDepthMask(GL_FALSE);
         for (const Batch& batch : frame.translucent) {
-            if (batch.deck)
+            if (batch.deck && !forward)
                 glDisable(GL_DEPTH_TEST);
             else
                 glEnable(GL_DEPTH_TEST);
@@ -163,19 +177,45 @@ struct GlPeer::Impl {
         glDisable(GL_BLEND);
         glDisable(GL_DEPTH_TEST);
     }
+    void encode_picture() const {
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        cover_picture(encode);
+    }
+
+    void draw_forward(const FrameRecords& frame) const {
+        glBindFramebuffer(GL_FRAMEBUFFER, picture.frame_buffer);
+        cover_picture(sky);
+        draw_opaque(frame);
+        draw_translucent(frame);
+        encode_picture();
+    }
+    void draw_deferred(const FrameRecords& frame) const {
+        find_what_is_seen(frame);
+        if (frame.translucent.empty()) {
+            glBindFramebuffer(GL_FRAMEBUFFER, 0);
+            cover_picture(shade_last);
+            return;
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, picture.frame_buffer);
+        cover_picture(shade);
+        draw_translucent(frame);
+        encode_picture();
+    }
 
     Scene scene;
     FrameObjects objects;
     GlContext context;
     RecordBuffer records, planes;
+    bool forward;
     Target seen, picture;
     std::array<unsigned, 2> blocks{};
     unsigned no_attributes = 0;
     std::array<unsigned, kVariants> opaque{}, translucent{};
-    unsigned ground = 0, shade = 0, shade_last = 0, deck = 0, encode = 0;
+    unsigned ground = 0, sky = 0, shade = 0, shade_last = 0, deck = 0, encode = 0;
 };
 
-GlPeer::GlPeer(const Scene& scene, int width, int height) : impl_(std::make_unique<Impl>(scene, width, height)) {}
+GlPeer::GlPeer(const Scene& scene, int width, int height, Shading shading)
+    : impl_(std::make_unique<Impl>(scene, width, height, shading)) {}
 GlPeer::~GlPeer() = default;
 std::string GlPeer::renderer() const { return impl_->context.renderer(); }
 
@@ -189,18 +229,10 @@ FrameImage GlPeer::render(const View& view) {
     fill_block(p.blocks[1], 1, texture_block(p.scene, view.eye.metres));
     glViewport(0, 0, view.image.width, view.image.height);
 
-    p.find_what_is_seen(frame);
-    glDisable(GL_DEPTH_TEST);
-    if (frame.translucent.empty()) {
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        Impl::cover_picture(p.shade_last);
-    } else {
-        glBindFramebuffer(GL_FRAMEBUFFER, p.picture.frame_buffer);
-        Impl::cover_picture(p.shade);
-        p.blend_translucent(frame);
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        Impl::cover_picture(p.encode);
-    }
+    if (p.forward)
+        p.draw_forward(frame);
+    else
+        p.draw_deferred(frame);
     glFinish();
     return p.context.image();
 }

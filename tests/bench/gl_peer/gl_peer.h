@@ -9,11 +9,17 @@
 
 namespace quadrig::gl_peer {
 
+/// When opaque surfaces are painted.
+enum class Shading {
+    deferred,  ///< once a pixel, after all are in their places: the faster one where much is hidden
+    forward    ///< with their impostors, front to back
+};
+
 class GlPeer {
   public:
     /// Throws std::runtime_error where there is no GL 4.5, and for scenes with ground polygons, lights or more than 256
     /// textures, which the peer does not draw. Objects stay where they are at time 0.
-    GlPeer(const Scene& scene, int width, int height);
+    GlPeer(const Scene& scene, int width, int height, Shading shading = Shading::deferred);
     ~GlPeer();
     GlPeer(const GlPeer&) = delete;
     GlPeer& operator=(const GlPeer&) = delete;

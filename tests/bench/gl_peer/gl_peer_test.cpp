@@ -10,6 +10,7 @@
 
 using namespace quadrig;
 using gl_peer::GlPeer;
+using gl_peer::Shading;
 using test::Randomness;
 
 namespace {
@@ -70,7 +71,7 @@ TEST_CASE("The GL peer draws solids of every kind as the exact renderer does") {
         if (random.chance(0.5)) scene.ground = Ground{{{0.3, 0.4, 0.1}, {}, 0.0, {}}};
         const View view =
             view_from(eye, {{random.between(-10, 10)}, {random.between(-10, 10)}, {random.between(-90, 90)}});
-        GlPeer peer(scene, kWidth, kHeight);
+        GlPeer peer(scene, kWidth, kHeight, trial % 2 == 0 ? Shading::deferred : Shading::forward);
         CHECK(psnr_of(peer, scene, view) > 48.0);
         // The bound tells pictures apart: half a degree further left is another one.
         View beside = view;
@@ -102,7 +103,7 @@ TEST_CASE("The GL peer lays translucent solids and cloud decks over one another 
             scene.cloud_decks.back().paint.texture = 1;
         }
         const View view = view_from(eye, {{0}, {random.between(-5, 5)}, {random.between(-10, 10)}});
-        GlPeer peer(scene, kWidth, kHeight);
+        GlPeer peer(scene, kWidth, kHeight, trial % 2 == 0 ? Shading::deferred : Shading::forward);
         // Towards limbs and horizon the peer fades its texture out, and single rays do not.
         CHECK(psnr_of(peer, scene, view) > 37.0);
     }

@@ -1,4 +1,4 @@
-// A translucent object, blended over what is behind it.
+// A translucent object, blended over what is behind it; with FORWARD also an opaque one.
 uniform usampler2D seen;
 flat in vec4 record_a, record_b, record_c, record_d;
 flat in int object;
@@ -10,7 +10,11 @@ void main() {
                     int(e.w), int(record_d.w));
     vec3 d = ray(gl_FragCoord.xy);
     Entry at = enter(s, d);
+#ifdef FORWARD
+    gl_FragDepth = near / at.depth;
+#else
     if (1.0 / at.depth <= uintBitsToFloat(texelFetch(seen, ivec2(gl_FragCoord.xy), 0).y)) discard;
+#endif
     vec3 normal = s.m * (at.depth * d - s.anchor) + s.w;
 #ifdef PLANES
     if (at.surface != 0) normal = -texelFetch(planes, s.first_plane + at.surface - 1).xyz;

@@ -11,6 +11,7 @@
 
 #include "host_link/canaerospace_pose.h"
 #include "host_link/modbus_pose.h"
+#include "host_link/trust.h"
 
 namespace quadrig::host {
 
@@ -39,12 +40,14 @@ struct LinkUrl {
     canaerospace::PoseSettings canaerospace;  ///< ?position=, ?commit=, ?channel=, ?timeout=
     modbus::PoseSettings modbus;              ///< ?base=, ?word_order=
     std::optional<std::uint8_t> can_node;     ///< ?node=ID
+    TrustSettings trust;                      ///< ?allow=, ?host=, ?reply=, ?reply_rate=
 };
 
 /// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
 /// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3), ownship, view; can: position (gps,
 /// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
-/// to 255). Throws LinkUrlError.
+/// to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm), reply
+/// (ADDRESS:PORT; cigi), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

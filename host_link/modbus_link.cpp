@@ -21,6 +21,7 @@ ModbusLink::ModbusLink(const LinkUrl& given)
     : LiveLink(given),
       listening_(socket(url().address.find(':') == std::string::npos ? AF_INET : AF_INET6,
                         SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)),
+      gate_(url().trust),
       context_(modbus_new_tcp(nullptr, 0)),
       mapping_(modbus_mapping_new_start_address(0, 0, 0, 0, url().modbus.base, modbus::kHoldingRegisters, 0,
                                                 modbus::kInputRegisters)) {
@@ -71,21 +72,23 @@ void ModbusLink::receive() {
     }
 }
 
+void ModbusLink::turn_away(int socket, Reject reason) {
+    close(socket);
+    const auto lock = lock_session();
+    session().refuse(reason);
+}
+
 void ModbusLink::admit() {
     sockaddr_storage address{};
     socklen_t size = sizeof address;
     const int socket =
         accept4(listening_.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0) return;
+    if (!gate_.allows(endpoint_of(address).address)) return turn_away(socket, Reject::not_allowed);
     const Time now = clock_time(CLOCK_MONOTONIC);
     if (clients_.size() == kMostClients) {
         const auto idle = std::ranges::min_element(clients_, {}, &Client::heard);
-        if (now - idle->heard < kIdle) {
-            close(socket);
-            const auto lock = lock_session();
-            session().refuse(Reject::too_many_clients);
-            return;
-        }
+        if (now - idle->heard < kIdle) return turn_away(socket, Reject::too_many_clients);
         let_go(*idle);
         clients_.erase(idle);
     }

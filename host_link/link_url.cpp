@@ -174,7 +174,7 @@ Endpoint reply_of(const LinkUrl& url, std::string_view value) {
     return reply;
 }
 
-bool set_trust_option(LinkUrl& url, std::string_view key, std::string_view value) {
+bool set_live_option(LinkUrl& url, std::string_view key, std::string_view value) {
     using enum Protocol;
     const Protocol protocol = url.protocol;
     if (!url.live) return false;
@@ -190,6 +190,9 @@ bool set_trust_option(LinkUrl& url, std::string_view key, std::string_view value
         if (value != "first" && value != "newest")
             fail(url, "host is first or newest, not '" + std::string(value) + "'");
         url.trust.first_host = value == "first";
+    } else if (key == "transport" && protocol == flightgear_fdm) {
+        if (value != "udp" && value != "tcp") fail(url, "transport is udp or tcp, not '" + std::string(value) + "'");
+        url.tcp = value == "tcp";
     } else if (key == "reply" && protocol == cigi) {
         url.trust.reply = reply_of(url, value);
     } else if (key == "reply_rate" && (protocol == cigi || protocol == canaerospace)) {
@@ -201,7 +204,7 @@ bool set_trust_option(LinkUrl& url, std::string_view key, std::string_view value
 }
 
 void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
-    if (set_trust_option(url, key, value)) return;
+    if (set_live_option(url, key, value)) return;
     if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
     if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
     if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;

@@ -34,6 +34,7 @@ struct LinkUrl {
     bool live = false;    ///< says where to listen; a bare protocol names a recording's
     std::string address;  ///< numeric, without brackets, 127.0.0.1 where none was given; CAN: the interface
     std::optional<std::uint16_t> port;        ///< 0: any free port; absent for CAN and a bare protocol
+    bool tcp = false;                         ///< FlightGear over TCP: ?transport=tcp
     std::optional<std::uint16_t> ownship;     ///< ?ownship=ID
     std::optional<std::uint16_t> view;        ///< ?view=ID
     std::optional<double> altitude_offset;    ///< ?altitude_offset=METRES, added to the host's altitudes
@@ -47,7 +48,7 @@ struct LinkUrl {
 /// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3), ownship, view; can: position (gps,
 /// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
 /// to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm), reply
-/// (ADDRESS:PORT; cigi), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
+/// (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

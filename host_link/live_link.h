@@ -113,6 +113,9 @@ class LiveLink {
     void count_reply(bool sent);
     void hold_reply_back() { replies_held_back_.fetch_add(1, std::memory_order_relaxed); }
 
+    /// Bound to the URL's address for TCP, with that many connections waiting at most; not to be waited on by accept.
+    [[nodiscard]] int listening_socket(int waiting) const;
+
     [[noreturn]] void fail(const std::string& what) const;  ///< throws, with errno's words
 
   private:

@@ -19,22 +19,14 @@ namespace quadrig::host {
 
 ModbusLink::ModbusLink(const LinkUrl& given)
     : LiveLink(given),
-      listening_(socket(url().address.find(':') == std::string::npos ? AF_INET : AF_INET6,
-                        SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)),
+      listening_(listening_socket(static_cast<int>(kMostClients))),
       gate_(url().trust),
       context_(modbus_new_tcp(nullptr, 0)),
       mapping_(modbus_mapping_new_start_address(0, 0, 0, 0, url().modbus.base, modbus::kHoldingRegisters, 0,
                                                 modbus::kInputRegisters)) {
-    if (listening_.fd < 0) fail("cannot open a socket");
     if (context_ == nullptr || mapping_ == nullptr) throw std::bad_alloc();
     // libmodbus sleeps that long before it refuses a request: of those that we let through there is none.
     modbus_set_response_timeout(context_, 0, 1);
-    const int on = 1;
-    setsockopt(listening_.fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_storage storage{};
-    const socklen_t size = socket_address(url(), storage);
-    if (bind(listening_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
-    if (listen(listening_.fd, static_cast<int>(kMostClients)) != 0) fail("cannot listen");
     own_port_ = port();
 }
 

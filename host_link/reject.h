@@ -30,7 +30,7 @@ enum class Reject : std::uint8_t {
     bad_address,            ///< Modbus: registers that are not there, or are not for hosts to write
     commit_mismatch,        ///< Modbus: the commit register was not the sequence number
     other_host,             ///< of a second host while the first one holds the link
-    too_many_clients,       ///< Modbus: connections that found every place taken
+    too_many_clients,       ///< connections that found every place taken
     not_allowed,            ///< of a peer that the link's allow-list does not name
     count
 };

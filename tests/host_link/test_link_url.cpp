@@ -101,6 +101,8 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
+    CHECK_THAT(error_of("fdm://127.0.0.1:80?transport=sctp"), Contains("udp or tcp"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?transport=tcp"), Contains("unknown option"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow="), Contains("ADDRESS[/BITS]"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/33"), Contains("from 0 to 32"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/"), Contains("from 0 to 32"));

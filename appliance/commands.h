@@ -18,6 +18,7 @@ using Action = std::function<void()>;
 /// Each adds a command with its options to the program, and sets `action` where that command is chosen.
 void add_render(CLI::App& program, Action& action);
 void add_replay(CLI::App& program, Action& action);
+void add_monitor(CLI::App& program, Action& action);
 void add_record(CLI::App& program, Action& action);
 void add_send(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     add_render(program, action);
     add_replay(program, action);
     add_run(program, action);
+    add_monitor(program, action);
     add_record(program, action);
     add_send(program, action);
     add_bench(program, action);

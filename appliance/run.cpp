@@ -148,6 +148,7 @@ void run(const LiveOptions& options) {
         if (host->link->port() != 0) told["port"] = host->link->port();
         told["replies"] = host->link->replies_sent();
         told["replies_failed"] = host->link->replies_failed();
+        told["replies_held_back"] = host->link->replies_held_back();
         if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
         report.links.push_back(std::move(told));
     }

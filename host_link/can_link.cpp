@@ -45,7 +45,9 @@ struct ::can_frame to_kernel(const CanFrame& frame) {
 }
 
 CanLink::CanLink(const LinkUrl& given)
-    : LiveLink(given), socket_(socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
+    : LiveLink(given),
+      socket_(socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)),
+      reply_rate_(url().trust.reply_rate) {
     if (socket_.fd < 0) fail("this system's kernel has no CAN");
     const int on = 1;
     setsockopt(socket_.fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
@@ -85,12 +87,13 @@ bool CanLink::drain() {
         const auto record = can_record(from_kernel(frame));
         const Verdict verdict = hear({floor<std::chrono::microseconds>(arrival), record});
         if (verdict == Verdict::pose || verdict == Verdict::no_pose) publish();
-        send(session().answer());
+        send(session().answer(), arrival);
     }
 }
 
-void CanLink::send(std::span<const std::byte> record) {
+void CanLink::send(std::span<const std::byte> record, Time now) {
     if (record.empty()) return;
+    if (!reply_rate_.take(now)) return hold_reply_back();
     const struct ::can_frame frame = to_kernel(host::can_frame(record).value());
     count_reply(write(socket_.fd, &frame, sizeof frame) == sizeof frame);
 }

@@ -4,6 +4,7 @@
 #include <linux/can.h>
 
 #include "host_link/live_link.h"
+#include "host_link/trust.h"
 
 namespace quadrig::host {
 
@@ -22,9 +23,10 @@ class CanLink final : public LiveLink {
   private:
     void receive() override;
     bool drain();  ///< whether the bus is up
-    void send(std::span<const std::byte> record);
+    void send(std::span<const std::byte> record, Time now);
 
     Descriptor socket_;
+    ReplyRate reply_rate_;
 };
 
 }  // namespace quadrig::host

@@ -27,6 +27,9 @@ class FrameOrder {
     /// `fingerprint`: a hash of the whole message.
     Arrival arrive(std::uint32_t frame, std::uint64_t fingerprint);
 
+    /// The next number begins a new count, whichever it is.
+    void forget() { newest_.reset(); }
+
     [[nodiscard]] std::uint64_t lost() const {
         return lost_;
     }  ///< numbers that never came; a late one is no longer lost

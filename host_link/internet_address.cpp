@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -10,21 +11,46 @@
 namespace quadrig::host {
 
 socklen_t socket_address(const LinkUrl& url, sockaddr_storage& storage) {
-    const auto port = htons(url.port.value_or(0));
-    sockaddr_in v4{};
-    if (inet_pton(AF_INET, url.address.c_str(), &v4.sin_addr) == 1) {
+    const auto address = ip_address(url.address);
+    if (!address) throw std::runtime_error("link '" + url.text + "': not a numeric address");
+    return socket_address(Endpoint{*address, url.port.value_or(0)}, storage);
+}
+
+socklen_t socket_address(const Endpoint& endpoint, sockaddr_storage& storage) {
+    if (!endpoint.address.v6) {
+        sockaddr_in v4{};
         v4.sin_family = AF_INET;
-        v4.sin_port = port;
+        v4.sin_port = htons(endpoint.port);
+        std::memcpy(&v4.sin_addr, endpoint.address.bytes.data(), sizeof v4.sin_addr);
         std::memcpy(&storage, &v4, sizeof v4);
         return sizeof v4;
     }
     sockaddr_in6 v6{};
-    if (inet_pton(AF_INET6, url.address.c_str(), &v6.sin6_addr) != 1)
-        throw std::runtime_error("link '" + url.text + "': not a numeric address");
     v6.sin6_family = AF_INET6;
-    v6.sin6_port = port;
+    v6.sin6_port = htons(endpoint.port);
+    std::memcpy(&v6.sin6_addr, endpoint.address.bytes.data(), sizeof v6.sin6_addr);
     std::memcpy(&storage, &v6, sizeof v6);
     return sizeof v6;
+}
+
+Endpoint endpoint_of(const sockaddr_storage& storage) {
+    Endpoint endpoint;
+    if (storage.ss_family == AF_INET) {
+        sockaddr_in v4{};
+        std::memcpy(&v4, &storage, sizeof v4);
+        endpoint.port = ntohs(v4.sin_port);
+        std::memcpy(endpoint.address.bytes.data(), &v4.sin_addr, sizeof v4.sin_addr);
+        return endpoint;
+    }
+    sockaddr_in6 v6{};
+    std::memcpy(&v6, &storage, sizeof v6);
+    endpoint.port = ntohs(v6.sin6_port);
+    const bool mapped = IN6_IS_ADDR_V4MAPPED(&v6.sin6_addr);
+    endpoint.address.v6 = !mapped;
+    // ::ffff:a.b.c.d ends in the IPv4 address.
+    const auto* bytes = v6.sin6_addr.s6_addr;
+    std::copy(bytes + (mapped ? 12 : 0), bytes + 16, endpoint.address.bytes.begin());
+    return endpoint;
 }
 
 std::uint16_t bound_port(int socket) {

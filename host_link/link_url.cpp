@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace quadrig::host {
@@ -67,16 +68,21 @@ void set_interface(LinkUrl& url, std::string_view name) {
     url.address = name;
 }
 
+std::pair<std::string, std::uint16_t> endpoint_of(const LinkUrl& url, std::string_view text) {
+    const auto colon = text.rfind(':');
+    const auto bracket = text.rfind(']');
+    if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
+        fail(url, "no port; give ADDRESS:PORT, for example 127.0.0.1:8004");
+    const auto port = number<std::uint16_t>(text.substr(colon + 1));
+    std::string address = address_of(url, text.substr(0, colon));
+    if (!port) fail(url, "bad port '" + std::string(text.substr(colon + 1)) + "'");
+    return {std::move(address), *port};
+}
+
 void set_endpoint(LinkUrl& url, std::string_view endpoint) {
     url.live = true;
     if (url.protocol == Protocol::canaerospace) return set_interface(url, endpoint);
-    const auto colon = endpoint.rfind(':');
-    const auto bracket = endpoint.rfind(']');
-    if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
-        fail(url, "no port; give ADDRESS:PORT, for example 127.0.0.1:8004");
-    url.address = address_of(url, endpoint.substr(0, colon));
-    url.port = number<std::uint16_t>(endpoint.substr(colon + 1));
-    if (!url.port) fail(url, "bad port '" + std::string(endpoint.substr(colon + 1)) + "'");
+    std::tie(url.address, url.port) = endpoint_of(url, endpoint);
 }
 
 void check_version(const LinkUrl& url, std::string_view value) {
@@ -149,7 +155,56 @@ bool set_modbus_option(LinkUrl& url, std::string_view key, std::string_view valu
     return true;
 }
 
+AddressRange range_of(const LinkUrl& url, std::string_view text) {
+    const auto [network, length] = split(text, '/');
+    if (network.empty()) fail(url, "allow is ADDRESS[/BITS], with commas between several");
+    AddressRange range{ip_address(address_of(url, network)).value(), 0};
+    const unsigned most = range.address.v6 ? 128 : 32;
+    const bool has_length = network.size() < text.size();
+    range.bits = has_length ? whole_in<unsigned>(url, "the number of bits in allow", length, 0, most) : most;
+    return range;
+}
+
+Endpoint reply_of(const LinkUrl& url, std::string_view value) {
+    const auto [address, port] = endpoint_of(url, value);
+    const Endpoint reply{ip_address(address).value(), port};
+    if (port == 0) fail(url, "reply needs a port");
+    if (reply.address.v6 != ip_address(url.address)->v6)
+        fail(url, "reply and the link itself are both IPv4 or both IPv6");
+    return reply;
+}
+
+bool set_live_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    using enum Protocol;
+    const Protocol protocol = url.protocol;
+    if (!url.live) return false;
+    if (key == "allow" && protocol != canaerospace) {
+        url.trust.allow.clear();
+        auto [range, rest] = split(value, ',');
+        url.trust.allow.push_back(range_of(url, range));
+        while (!rest.empty()) {
+            std::tie(range, rest) = split(rest, ',');
+            url.trust.allow.push_back(range_of(url, range));
+        }
+    } else if (key == "host" && (protocol == cigi || protocol == flightgear_fdm)) {
+        if (value != "first" && value != "newest")
+            fail(url, "host is first or newest, not '" + std::string(value) + "'");
+        url.trust.first_host = value == "first";
+    } else if (key == "transport" && protocol == flightgear_fdm) {
+        if (value != "udp" && value != "tcp") fail(url, "transport is udp or tcp, not '" + std::string(value) + "'");
+        url.tcp = value == "tcp";
+    } else if (key == "reply" && protocol == cigi) {
+        url.trust.reply = reply_of(url, value);
+    } else if (key == "reply_rate" && (protocol == cigi || protocol == canaerospace)) {
+        url.trust.reply_rate = whole_in<int>(url, key, value, 1, 1000);
+    } else {
+        return false;
+    }
+    return true;
+}
+
 void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
+    if (set_live_option(url, key, value)) return;
     if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
     if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
     if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "host_link/can_link.h"
+#include "host_link/fdm_tcp_link.h"
+#include "host_link/internet_address.h"
 #include "host_link/modbus_link.h"
 #include "host_link/udp_link.h"
 
@@ -25,6 +27,18 @@ LiveLink::LiveLink(LinkUrl url) : url_(std::move(url)), wake_(eventfd(0, EFD_CLO
     if (!url_.live)
         throw std::runtime_error("link '" + url_.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
     if (wake_.fd < 0) fail("cannot open a descriptor");
+}
+
+int LiveLink::listening_socket(int waiting) const {
+    sockaddr_storage storage{};
+    const socklen_t size = socket_address(url_, storage);
+    Descriptor listening(socket(storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (listening.fd < 0) fail("cannot open a socket");
+    const int on = 1;
+    setsockopt(listening.fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (bind(listening.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
+    if (listen(listening.fd, waiting) != 0) fail("cannot listen");
+    return std::exchange(listening.fd, -1);
 }
 
 void LiveLink::fail(const std::string& what) const {
@@ -87,6 +101,7 @@ Time arrival_time(msghdr& header, Time realtime, Time monotonic) {
 std::unique_ptr<LiveLink> open_link(const LinkUrl& url) {
     if (url.protocol == Protocol::canaerospace) return std::make_unique<CanLink>(url);
     if (url.protocol == Protocol::modbus) return std::make_unique<ModbusLink>(url);
+    if (url.tcp) return std::make_unique<FdmTcpLink>(url);
     return std::make_unique<UdpLink>(url);
 }
 

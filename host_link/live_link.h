@@ -71,6 +71,8 @@ class LiveLink {
     [[nodiscard]] LinkStatistics statistics() const;
     [[nodiscard]] std::uint64_t replies_sent() const { return replies_sent_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t replies_failed() const { return replies_failed_.load(std::memory_order_relaxed); }
+    /// Replies that were due, but would have been too many or, where anybody may reach the link, too large.
+    [[nodiscard]] std::uint64_t replies_held_back() const { return replies_held_back_.load(std::memory_order_relaxed); }
     [[nodiscard]] const LinkUrl& url() const { return url_; }
     /// "port 8004", "interface vcan0".
     [[nodiscard]] virtual std::string place() const = 0;
@@ -81,6 +83,7 @@ class LiveLink {
     struct Peer {
         sockaddr_storage address{};
         socklen_t size = 0;
+        std::uint64_t bytes_taken = 0;  ///< of all messages taken from anybody so far
     };
     struct News {
         HostState state;
@@ -108,6 +111,10 @@ class LiveLink {
     /// The frame loop's.
     [[nodiscard]] const News& latched() const { return latched_; }
     void count_reply(bool sent);
+    void hold_reply_back() { replies_held_back_.fetch_add(1, std::memory_order_relaxed); }
+
+    /// Bound to the URL's address for TCP, with that many connections waiting at most; not to be waited on by accept.
+    [[nodiscard]] int listening_socket(int waiting) const;
 
     [[noreturn]] void fail(const std::string& what) const;  ///< throws, with errno's words
 
@@ -121,6 +128,7 @@ class LiveLink {
     News latched_;
     std::atomic<std::uint64_t> replies_sent_{0};
     std::atomic<std::uint64_t> replies_failed_{0};
+    std::atomic<std::uint64_t> replies_held_back_{0};
     std::thread thread_;
 };
 

@@ -19,21 +19,14 @@ namespace quadrig::host {
 
 ModbusLink::ModbusLink(const LinkUrl& given)
     : LiveLink(given),
-      listening_(socket(url().address.find(':') == std::string::npos ? AF_INET : AF_INET6,
-                        SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)),
+      listening_(listening_socket(static_cast<int>(kMostClients))),
+      gate_(url().trust),
       context_(modbus_new_tcp(nullptr, 0)),
       mapping_(modbus_mapping_new_start_address(0, 0, 0, 0, url().modbus.base, modbus::kHoldingRegisters, 0,
                                                 modbus::kInputRegisters)) {
-    if (listening_.fd < 0) fail("cannot open a socket");
     if (context_ == nullptr || mapping_ == nullptr) throw std::bad_alloc();
     // libmodbus sleeps that long before it refuses a request: of those that we let through there is none.
     modbus_set_response_timeout(context_, 0, 1);
-    const int on = 1;
-    setsockopt(listening_.fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_storage storage{};
-    const socklen_t size = socket_address(url(), storage);
-    if (bind(listening_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
-    if (listen(listening_.fd, static_cast<int>(kMostClients)) != 0) fail("cannot listen");
     own_port_ = port();
 }
 
@@ -71,21 +64,23 @@ void ModbusLink::receive() {
     }
 }
 
+void ModbusLink::turn_away(int socket, Reject reason) {
+    close(socket);
+    const auto lock = lock_session();
+    session().refuse(reason);
+}
+
 void ModbusLink::admit() {
     sockaddr_storage address{};
     socklen_t size = sizeof address;
     const int socket =
         accept4(listening_.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0) return;
+    if (!gate_.allows(endpoint_of(address).address)) return turn_away(socket, Reject::not_allowed);
     const Time now = clock_time(CLOCK_MONOTONIC);
     if (clients_.size() == kMostClients) {
         const auto idle = std::ranges::min_element(clients_, {}, &Client::heard);
-        if (now - idle->heard < kIdle) {
-            close(socket);
-            const auto lock = lock_session();
-            session().refuse(Reject::too_many_clients);
-            return;
-        }
+        if (now - idle->heard < kIdle) return turn_away(socket, Reject::too_many_clients);
         let_go(*idle);
         clients_.erase(idle);
     }

@@ -5,6 +5,7 @@
 
 #include "host_link/live_link.h"
 #include "host_link/modbus.h"
+#include "host_link/trust.h"
 
 struct _modbus;  // libmodbus' names for its types
 struct _modbus_mapping_t;
@@ -45,7 +46,10 @@ class ModbusLink final : public LiveLink {
     void refresh_status();
     void let_go(Client& client);
 
+    void turn_away(int socket, Reject reason);
+
     Descriptor listening_;
+    PeerGate gate_;
     _modbus* context_;
     _modbus_mapping_t* mapping_;
     std::list<Client> clients_;

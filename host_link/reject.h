@@ -29,8 +29,9 @@ enum class Reject : std::uint8_t {
     bad_request,            ///< Modbus: a function that is not served, or counts that contradict each other
     bad_address,            ///< Modbus: registers that are not there, or are not for hosts to write
     commit_mismatch,        ///< Modbus: the commit register was not the sequence number
-    other_host,             ///< Modbus: a pose of a second host while the first one drives
-    too_many_clients,       ///< Modbus: connections that found every place taken
+    other_host,             ///< of a second host while the first one holds the link
+    too_many_clients,       ///< connections that found every place taken
+    not_allowed,            ///< of a peer that the link's allow-list does not name
     count
 };
 
@@ -56,7 +57,8 @@ inline constexpr std::array<std::string_view, kRejectCount> kRejectNames{"trunca
                                                                          "bad_address",
                                                                          "commit_mismatch",
                                                                          "other_host",
-                                                                         "too_many_clients"};
+                                                                         "too_many_clients",
+                                                                         "not_allowed"};
 
 constexpr std::string_view name_of(Reject reason) { return kRejectNames[static_cast<std::size_t>(reason)]; }
 

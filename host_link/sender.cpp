@@ -50,6 +50,20 @@ class UdpSender final : public Sender {
     Descriptor socket_;
 };
 
+class StreamSender final : public Sender {
+  public:
+    explicit StreamSender(const LinkUrl& url) : socket_(connected(url, SOCK_STREAM)) {
+        const int on = 1;
+        setsockopt(socket_.fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    }
+    bool send(std::span<const std::byte> bytes, std::uint32_t) override {
+        return ::send(socket_.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+    }
+
+  private:
+    Descriptor socket_;
+};
+
 class CanSender final : public Sender {
   public:
     explicit CanSender(const LinkUrl& url) : socket_(socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)) {
@@ -123,6 +137,7 @@ std::unique_ptr<Sender> open_sender(const LinkUrl& url) {
         case Protocol::flightgear_fdm:
             break;
     }
+    if (url.tcp) return std::make_unique<StreamSender>(url);
     return std::make_unique<UdpSender>(url);
 }
 

@@ -128,6 +128,12 @@ void Session::restart() {
     comparable_ = false;
 }
 
+void Session::host_changes() {
+    restart();
+    frame_order_.forget();
+    fdm_clock_ = {};
+}
+
 void Session::commit_pose(const GeodeticPose& pose, Time arrival, std::optional<Time> source_time) {
     PoseSample sample;
     sample.position = pose.position;

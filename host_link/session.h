@@ -85,6 +85,8 @@ class Session {
     Verdict accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source = 0);
     /// Counts what a link refused before it was a datagram.
     void refuse(Reject reason) { reject(reason); }
+    /// The next datagram is of another host than the last: nothing of the two is comparable.
+    void host_changes();
     /// Counts an answer that a link had no place for.
     void drop_answer() { ++statistics_.answers_dropped; }
 

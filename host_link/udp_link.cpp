@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -19,6 +20,8 @@ constexpr unsigned kBatch = 32;
 constexpr std::size_t kLargestDatagram = 65535;
 // A second of a fast host's messages, so that a stall of ours loses none.
 constexpr int kReceiveBuffer = 1 << 20;
+
+bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
 
 }  // namespace
 
@@ -50,7 +53,10 @@ struct UdpLink::Batch {
 UdpLink::UdpLink(LinkUrl given)
     : LiveLink(std::move(given)),
       socket_(socket(url().address.find(':') == std::string::npos ? AF_INET : AF_INET6,
-                     SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+                     SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)),
+      gate_(url().trust),
+      reply_rate_(url().trust.reply_rate),
+      open_(!is_loopback(url().address) && url().trust.allow.empty() && !url().trust.reply) {
     if (socket_.fd < 0) fail("cannot open a socket");
     const int on = 1;
     setsockopt(socket_.fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
@@ -58,6 +64,10 @@ UdpLink::UdpLink(LinkUrl given)
     sockaddr_storage storage{};
     const socklen_t size = socket_address(url(), storage);
     if (bind(socket_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
+    if (url().trust.reply) {
+        reply_to_.emplace();
+        reply_to_->size = socket_address(*url().trust.reply, reply_to_->address);
+    }
 }
 
 std::uint16_t UdpLink::port() const { return bound_port(socket_.fd); }
@@ -84,11 +94,23 @@ void UdpLink::accept_batch(Batch& batch, int count) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         msghdr& header = batch.messages[i].msg_hdr;
         const std::span datagram(batch.bytes.data() + i * kLargestDatagram, batch.messages[i].msg_len);
-        const Verdict verdict =
-            hear({arrival_time(header, realtime, monotonic), datagram, 0, batch.peers[i].address, own_port});
+        const Time arrival = arrival_time(header, realtime, monotonic);
+        Peer& peer = batch.peers[i];
+        const Endpoint from = endpoint_of(peer.address);
+        const PeerGate::Judgement judgement = gate_.judge(from, arrival);
+        if (judgement.refused) {
+            session().refuse(*judgement.refused);
+            continue;
+        }
+        if (judgement.passes_on) session().host_changes();
+        const Verdict verdict = hear({arrival, datagram, 0, peer.address, own_port});
         queue(session().responses());
-        batch.peers[i].size = header.msg_namelen;
-        if (verdict == Verdict::pose || verdict == Verdict::no_pose) newest = i;
+        if (verdict != Verdict::pose && verdict != Verdict::no_pose) continue;
+        gate_.taken(from, arrival);
+        bytes_taken_ += datagram.size();
+        peer.size = header.msg_namelen;
+        peer.bytes_taken = bytes_taken_;
+        newest = i;
     }
     if (newest) publish(batch.peers[*newest]);
 }
@@ -105,20 +127,30 @@ void UdpLink::queue(std::span<const Session::Response> responses) {
     queued_.store(next, std::memory_order_release);
 }
 
+std::size_t UdpLink::largest_reply(std::uint64_t bytes_taken) {
+    if (!open_) return kLargestMessage;
+    bytes_answered_ = std::max(bytes_answered_, bytes_taken - std::min(bytes_taken, kMostCredit));
+    return static_cast<std::size_t>(std::min<std::uint64_t>(kLargestMessage, bytes_taken - bytes_answered_));
+}
+
 void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now) {
     const auto& [state, reply, peer, heard] = latched();
     if (!reply || peer.size == 0) return;
+    const std::size_t largest = largest_reply(peer.bytes_taken);
     std::size_t size = start_of_frame(*reply, ig_frame, now, std::span(message_).first<cigi::StartOfFrame::kSize>());
+    if (size > largest || !reply_rate_.take(now)) return hold_reply_back();
     std::size_t next = taken_.load(std::memory_order_relaxed);
     for (const std::size_t end = queued_.load(std::memory_order_acquire); next != end; ++next) {
         const Session::Response& response = waiting_[next % kMostWaiting];
-        if (size + response.size > kLargestMessage) break;
+        if (size + response.size > largest) break;
         std::memcpy(message_.data() + size, response.bytes.data(), response.size);
         size += response.size;
     }
     taken_.store(next, std::memory_order_release);
+    bytes_answered_ += size;
+    const Peer& to = reply_to_ ? *reply_to_ : peer;
     const auto sent = sendto(socket_.fd, message_.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL,
-                             reinterpret_cast<const sockaddr*>(&peer.address), peer.size);
+                             reinterpret_cast<const sockaddr*>(&to.address), to.size);
     count_reply(sent == static_cast<ssize_t>(size));
 }
 

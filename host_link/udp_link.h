@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "host_link/live_link.h"
+#include "host_link/trust.h"
 
 namespace quadrig::host {
 
@@ -18,9 +19,11 @@ class UdpLink final : public LiveLink {
     /// Answers that wait for the next Start Of Frame, and the largest message that carries them.
     static constexpr std::size_t kMostWaiting = 1024;
     static constexpr std::size_t kLargestMessage = 4096;
+    /// Where anybody may reach the link, no more bytes go back than came, of which so many are remembered.
+    static constexpr std::uint64_t kMostCredit = 65536;
 
     /// To a CIGI host: Start Of Frame for this frame, with the answers that are ready, as many as a message holds, to
-    /// where the state last taken came from. Does nothing before that.
+    /// where the URL says or the state last taken came from. Does nothing before that.
     void send_start_of_frame(std::uint32_t ig_frame, Time now);
     void frame_begins(const FrameStatus& status) override { send_start_of_frame(status.frame, status.now); }
 
@@ -35,11 +38,20 @@ class UdpLink final : public LiveLink {
 
     void queue(std::span<const Session::Response> responses);
 
+    [[nodiscard]] std::size_t largest_reply(std::uint64_t bytes_taken);
+
     Descriptor socket_;
+    PeerGate gate_;                  ///< the link's thread's
+    std::uint64_t bytes_taken_ = 0;  ///< the link's thread's
     // From the link's thread to the frame loop, wait-free on both sides.
     std::array<Session::Response, kMostWaiting> waiting_{};
     std::atomic<std::size_t> queued_{0}, taken_{0};
-    std::array<std::byte, kLargestMessage> message_{};  ///< the frame loop's
+    // The frame loop's.
+    std::array<std::byte, kLargestMessage> message_{};
+    ReplyRate reply_rate_;
+    std::optional<Peer> reply_to_;
+    bool open_;  ///< anybody may reach the link
+    std::uint64_t bytes_answered_ = 0;
 };
 
 }  // namespace quadrig::host

@@ -124,6 +124,29 @@ TEST_CASE("A recording whose process was killed has all but the last second, and
     CHECK_THAT(check.out, Catch::Contains(std::to_string(rows.size()) + " poses"));
 }
 
+TEST_CASE("A link can be watched, and its host's oddities reported") {
+    std::vector<Bytes> flight(30, fdm_message({}));
+    const auto sound = recording(flight, 5500);
+    std::swap(flight[20][0], flight[20][3]);
+    const auto swapped = recording(flight, 5500);
+    // Over TCP, and over UDP.
+    Program plain({"monitor", "fdm://127.0.0.1:0?transport=tcp", "--seconds", "1.6"}),
+        strict({"monitor", "fdm://127.0.0.1:0", "--seconds", "1.6", "--strict"});
+    for (Program* program : {&plain, &strict}) {
+        const auto port = program->number_after("listens on port ");
+        REQUIRE(port);
+        const std::string to = "fdm://127.0.0.1:" + std::to_string(*port) + (program == &plain ? "?transport=tcp" : "");
+        CHECK(quadrig_program({"send", program == &plain ? sound : swapped, "--to", to, "--speed", "2"}).status == 0);
+    }
+    const Outcome seen = plain.wait(), report = strict.wait();
+    CHECK(seen.status == 0);
+    CHECK_THAT(seen.out, Catch::Contains("net_fdm_24") && Catch::Contains("altitude 595 m"));
+    CHECK(report.status == 1);
+    CHECK_THAT(report.out, Catch::Contains("message 21: byte_swapped_version: byte-swapped 24: a host of the other"));
+    CHECK_THAT(report.out, Catch::Contains(" in 30 messages, 29 poses\n"));
+    CHECK_THAT(report.err, Catch::Contains("does not conform"));
+}
+
 TEST_CASE("What cannot be recorded or sent is said before anything runs") {
     const auto out = scratch_directory();
     const auto fails = [&](const Arguments& arguments, int status, const std::string& reason) {
@@ -136,6 +159,8 @@ TEST_CASE("What cannot be recorded or sent is said before anything runs") {
     fails({"record", out / "no" / "a.pcapng", "--link", "fdm://127.0.0.1:0"}, 1, "a.pcapng: cannot be written");
     fails({"record", out / "a.pcapng", "--link", "fdm:"}, 2, "needs ADDRESS:PORT");
     fails({"record", out / "a.pcapng"}, 2, "--link is missing");
+    fails({"monitor", "fdm:"}, 2, "needs ADDRESS:PORT");
+    fails({"monitor", "fdm://127.0.0.1:0", "--strict", "--seconds", "0.05"}, 1, "nothing was heard");
     fails({"send", fdm_climb(3), "--to", "cigi://127.0.0.1:9"}, 1, "no datagram of a CIGI");
     fails({"send", fdm_climb(3), "--to", "fdm:"}, 2, "needs ADDRESS:PORT");
     fails({"run", "--scene", scene(), "--link", "fdm://127.0.0.1:0", "--link", "cigi://127.0.0.1:0", "--record",

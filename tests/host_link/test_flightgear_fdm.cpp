@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
 #include <random>
+#include <thread>
 
+#include "host_link/fdm_stream.h"
+#include "host_link/fdm_tcp_link.h"
 #include "host_link/flightgear_fdm.h"
+#include "host_link/sender.h"
 #include "support.h"
 
 using namespace quadrig::host;
@@ -96,4 +100,79 @@ TEST_CASE("Random bytes are never taken for a packet of another size or version"
         taken += sound ? 1U : 0U;
     }
     CHECK(taken > 1000);
+}
+
+TEST_CASE("Packets are found in a stream in whatever pieces it comes, and again after garbage") {
+    const std::uint64_t seed = std::random_device{}();
+    INFO("seed " << seed);
+    std::mt19937_64 random(seed);
+    for (int run = 0; run < 50; ++run) {
+        Bytes stream;
+        std::vector<Bytes> sent;
+        std::uint64_t garbage_runs = 0;
+        std::uint32_t clean_from = 0;
+        for (std::uint32_t i = 0; i < 60; ++i) {
+            // A packet alone between garbage, or at the very end, has none behind it to tell it by.
+            if (i < 59 && i > clean_from && random() % 6 == 0) {
+                clean_from = i + 1;
+                ++garbage_runs;
+                for (auto left = 1 + random() % 900; left > 0; --left)
+                    stream.push_back(static_cast<std::byte>(random() % 255 + 1));
+            }
+            Bytes packet = encoded({.version = random() % 2 == 0 ? 24U : 25U, .latitude = 0.5, .cur_time = i});
+            // A host that forgot the byte order is to be heard whole too, for the reason to be told.
+            if (random() % 10 == 0) std::reverse(packet.begin(), packet.begin() + 4);
+            stream.insert(stream.end(), packet.begin(), packet.end());
+            sent.push_back(packet);
+        }
+        flightgear::PacketStream packets;
+        std::vector<Bytes> found;
+        for (std::size_t at = 0; at < stream.size();) {
+            const std::size_t piece = std::min<std::size_t>(stream.size() - at, 1 + random() % 1500);
+            std::span<const std::byte> rest = std::span(stream).subspan(at, piece);
+            while (const auto packet = packets.next(rest)) found.emplace_back(packet->begin(), packet->end());
+            CHECK(rest.empty());
+            at += piece;
+        }
+        CHECK((found == sent));
+        CHECK(packets.breaks() == garbage_runs);
+    }
+}
+
+TEST_CASE("Over TCP one host at a time is heard, may come back, and others are let go") {
+    using namespace std::chrono_literals;
+    FdmTcpLink link(parse_link_url("fdm://127.0.0.1:0?transport=tcp"));
+    link.start(session_options(link.url(), {}));
+    const LinkUrl to = parse_link_url("fdm://127.0.0.1:" + std::to_string(link.port()) + "?transport=tcp");
+    const auto until = [&](const auto& condition) {
+        for (int i = 0; i < 5000 && !condition(link.statistics()); ++i) std::this_thread::sleep_for(1ms);
+        CHECK(condition(link.statistics()));
+    };
+    const Bytes packet = encoded({.latitude = 0.8, .altitude = 700.0});
+    auto host = open_sender(to);
+    for (std::size_t at = 0; at < packet.size(); at += 100)
+        host->send(std::span(packet).subspan(at, std::min<std::size_t>(100, packet.size() - at)), 0);
+    until([](const LinkStatistics& s) { return s.frames == 1; });
+    const auto second = open_sender(to);
+    until([](const LinkStatistics& s) { return s.rejected_for(Reject::too_many_clients) == 1; });
+    host->send(Bytes(1000, std::byte{7}), 0);
+    for (int i = 0; i < 20; ++i) host->send(packet, 0);
+    until([](const LinkStatistics& s) { return s.frames == 21 && s.rejected_for(Reject::unknown_version) == 1; });
+    host.reset();
+    host = open_sender(to);
+    host->send(packet, 0);
+    until([](const LinkStatistics& s) { return s.frames == 22 && s.restarts == 1; });
+    HostState state;
+    CHECK(link.take_newest(state));
+    CHECK(state.pose->position.altitude == 700.0);
+    CHECK_FALSE(state.earlier.has_value());
+    link.stop();
+    CHECK(link.statistics().rejected_in_all() == 2);
+
+    FdmTcpLink closed(parse_link_url("fdm://127.0.0.1:0?transport=tcp&allow=10.0.0.0/8"));
+    closed.start(session_options(closed.url(), {}));
+    const auto stranger =
+        open_sender(parse_link_url("fdm://127.0.0.1:" + std::to_string(closed.port()) + "?transport=tcp"));
+    for (int i = 0; i < 5000 && closed.statistics().rejected_in_all() == 0; ++i) std::this_thread::sleep_for(1ms);
+    CHECK(closed.statistics().rejected_for(Reject::not_allowed) == 1);
 }

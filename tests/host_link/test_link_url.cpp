@@ -61,6 +61,20 @@ TEST_CASE("Options of a link are read") {
     CHECK(parse_link_url("fdm:?altitude_offset=2").altitude_offset == 2.0);
 }
 
+TEST_CASE("A link says whom it trusts") {
+    const LinkUrl url =
+        parse_link_url("cigi://[::]:8004?allow=10.1.2.3,10.8.0.0/13,[fd00::]/9,[::1]&host=first&reply=[::1]:8005");
+    const auto allowed = [&](const char* address) { return PeerGate(url.trust).allows(ip_address(address).value()); };
+    for (const char* address : {"10.1.2.3", "10.8.0.0", "10.15.255.255", "fd00::1", "fd7f::1", "::1"})
+        CHECK(allowed(address));
+    for (const char* address : {"10.1.2.4", "10.7.255.255", "10.16.0.0", "fd80::1", "fe00::1", "::2", "0.0.0.1"})
+        CHECK_FALSE(allowed(address));
+    CHECK(url.trust.first_host);
+    CHECK(url.trust.reply->port == 8005);
+    CHECK(PeerGate({}).allows(ip_address("192.0.2.1").value()));
+    CHECK(PeerGate(parse_link_url("modbus://0.0.0.0:1502?allow=0.0.0.0/0").trust).allows(*ip_address("192.0.2.1")));
+}
+
 TEST_CASE("What a link gets wrong is said with the link") {
     using Catch::Contains;
     CHECK_THAT(error_of("127.0.0.1"), Contains("127.0.0.1") && Contains("cigi://127.0.0.1:8004"));
@@ -87,4 +101,17 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
+    CHECK_THAT(error_of("fdm://127.0.0.1:80?transport=sctp"), Contains("udp or tcp"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?transport=tcp"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?allow="), Contains("ADDRESS[/BITS]"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/33"), Contains("from 0 to 32"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/"), Contains("from 0 to 32"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=here"), Contains("bad address"));
+    CHECK_THAT(error_of("can://vcan0?allow=10.0.0.1"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi:?allow=10.0.0.1"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?host=last"), Contains("first or newest"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?reply=[::1]:81"), Contains("both IPv4 or both IPv6"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?reply=127.0.0.1"), Contains("no port"));
+    CHECK_THAT(error_of("fdm://127.0.0.1:80?reply=127.0.0.1:81"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?reply_rate=0"), Contains("from 1 to 1000"));
 }

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <thread>
 
+#include "host_link/internet_address.h"
 #include "host_link/udp_link.h"
 #include "support.h"
 
@@ -22,7 +24,12 @@ Time monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(
 /// A host's socket on the loopback interface.
 class Peer {
   public:
-    explicit Peer(std::uint16_t port) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+    /// From an address of the loopback network, 127.0.0.`last`.
+    explicit Peer(std::uint16_t port, std::uint32_t last = 1) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+        sockaddr_in from{};
+        from.sin_family = AF_INET;
+        from.sin_addr.s_addr = htonl(0x7F000000U + last);
+        REQUIRE(bind(socket_, reinterpret_cast<sockaddr*>(&from), sizeof from) == 0);
         sockaddr_in to{};
         to.sin_family = AF_INET;
         to.sin_port = htons(port);
@@ -33,9 +40,10 @@ class Peer {
     Peer(const Peer&) = delete;
     Peer& operator=(const Peer&) = delete;
     void send(const Bytes& bytes) { ::send(socket_, bytes.data(), bytes.size(), 0); }
+    [[nodiscard]] std::uint16_t port() const { return bound_port(socket_); }
     Bytes receive(std::chrono::milliseconds patience = 2000ms) {
         pollfd waiting{socket_, POLLIN, 0};
-        Bytes bytes(100);
+        Bytes bytes(5000);
         if (poll(&waiting, 1, static_cast<int>(patience.count())) != 1) return {};
         const auto size = recv(socket_, bytes.data(), bytes.size(), 0);
         bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -160,6 +168,107 @@ TEST_CASE("A flood of datagrams, one in ten valid, loses none of the valid ones 
     CHECK(statistics.frames + statistics.lost == 2001);
     CHECK(statistics.frames > 1000);
     CHECK(statistics.rejected_in_all() + statistics.frames == statistics.datagrams);
+}
+
+TEST_CASE("Strangers' floods beside an allowed host are counted as theirs, and take no memory") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0?allow=10.1.0.0/16,127.0.0.1"));
+    link.start(session_options(link.url(), {}));
+    Peer host(link.port()), stranger(link.port(), 2);
+    const auto resident = [] {
+        std::size_t whole = 0, pages = 0;
+        std::ifstream("/proc/self/statm") >> whole >> pages;
+        return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    };
+    const std::size_t before = resident();
+    for (std::uint32_t f = 1; f <= 2000; ++f) {
+        host.send(frame(f));
+        for (std::uint32_t i = 0; i < 9; ++i) stranger.send(frame(f + 100000 + i));
+        // What the kernel drops on the way was never ours to honour.
+        if (f % 20 == 0) wait_until([&] { return link.statistics().frames == f; });
+    }
+    REQUIRE(wait_until([&] {
+        const auto now = link.statistics();
+        return now.frames == 2000 && now.rejected_for(Reject::not_allowed) == 18000;
+    }));
+    const LinkStatistics statistics = link.statistics();
+    CHECK(statistics.lost == 0);
+    CHECK(statistics.restarts == 0);
+    CHECK(statistics.datagrams == 2000);
+    CHECK(statistics.rejected_in_all() == 18000);
+    CHECK(resident() < before + (std::size_t{8} << 20));
+}
+
+TEST_CASE("Of two hosts at once the first holds the link where that is asked for, until it falls silent") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0?host=first"));
+    link.start(session_options(link.url(), {}));
+    Peer first(link.port()), second(link.port());
+    second.send(Bytes(8));  // holds nothing: not a host's
+    HostState state;
+    for (std::uint32_t f = 1; f <= 50; ++f) {
+        first.send(frame(f));
+        second.send(frame(1000 + f, ByteOrder::little));
+        REQUIRE(wait_until([&] { return link.statistics().rejected_for(Reject::other_host) == f; }));
+        REQUIRE(wait_until([&] { return link.take_newest(state); }));
+        CHECK(state.host_frame == f);
+        link.send_start_of_frame(f, 0ms);
+        CHECK(cigi::decode<cigi::StartOfFrame>(first.receive(), ByteOrder::big).last_host_frame == f);
+    }
+    CHECK(second.receive(0ms).empty());
+    std::this_thread::sleep_for(PeerGate::kSilence + 10ms);
+    second.send(frame(51, ByteOrder::little));
+    REQUIRE(wait_until([&] { return link.take_newest(state); }));
+    CHECK(state.host_frame == 51U);
+    CHECK_FALSE(state.earlier.has_value());
+    CHECK(link.statistics().restarts == 1);
+    CHECK(link.statistics().lost == 0);
+    link.send_start_of_frame(51, 0ms);
+    CHECK(second.receive().size() == cigi::StartOfFrame::kSize);
+}
+
+TEST_CASE("Replies go to the configured host, whoever speaks, and not more often than asked for") {
+    UdpLink probe(parse_link_url("cigi://127.0.0.1:0"));
+    Peer configured(probe.port());
+    UdpLink link(
+        parse_link_url("cigi://127.0.0.1:0?reply_rate=10&reply=127.0.0.1:" + std::to_string(configured.port())));
+    link.start(session_options(link.url(), {}));
+    Peer host(link.port());
+    host.send(frame(1));
+    HostState state;
+    REQUIRE(wait_until([&] { return link.take_newest(state); }));
+    for (std::uint32_t f = 0; f < 60; ++f) link.send_start_of_frame(f, f * 16667us);
+    CHECK(link.replies_sent() == 10);
+    CHECK(link.replies_held_back() == 50);
+    CHECK(host.receive(0ms).empty());
+}
+
+TEST_CASE("A link that anybody may reach sends no more bytes back than came") {
+    UdpLink open(parse_link_url("cigi://0.0.0.0:0")), trusted(parse_link_url("cigi://0.0.0.0:0?allow=127.0.0.0/8"));
+    for (UdpLink* link : {&open, &trusted}) {
+        SessionOptions options = session_options(link->url(), {});
+        options.surveyor = [](const SurveyLine&) { return std::optional<SurveyHit>(); };
+        link->start(options);
+        Peer host(link->port());
+        cigi::HatHotRequest question;
+        question.kind = cigi::HeightKind::extended;
+        question.period = 1;
+        Bytes asking = message(ByteOrder::big, ig_control(1), ownship());
+        for (std::uint16_t i = 0; i < 8; ++i) {
+            question.request = i;
+            append(asking, question, ByteOrder::big);
+        }
+        std::size_t sent = 0, received = 0;
+        for (std::uint32_t f = 1; f <= 100; ++f) {
+            const Bytes bytes = f == 1 ? asking : frame(f);
+            host.send(bytes);
+            sent += bytes.size();
+            HostState state;
+            REQUIRE(wait_until([&] { return link->take_newest(state); }));
+            link->send_start_of_frame(f, f * 16667us);
+        }
+        for (Bytes reply = host.receive(100ms); !reply.empty(); reply = host.receive(0ms)) received += reply.size();
+        CHECK((received <= sent) == (link == &open));
+        CHECK(received > sent / 2);
+    }
 }
 
 TEST_CASE("A port that is taken is a clear error") {

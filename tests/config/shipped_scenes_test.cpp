@@ -10,6 +10,9 @@ TEST_CASE("every scene that ships is in order") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(QUADRIG_SOURCE_DIR "/config/scenes")) {
         if (entry.path().extension() != ".toml") continue;
+#if defined(__SANITIZE_ADDRESS__)
+        if (entry.path().stem() == "out_of_view") continue;  // a hundred thousand objects take most of a minute
+#endif
         INFO(entry.path());
         ++scenes;
         CHECK_NOTHROW(config::read_scene(entry.path()));

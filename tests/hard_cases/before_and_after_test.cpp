@@ -10,6 +10,13 @@ using namespace quadrig::test;
 
 namespace {
 
+/// The figures are for a Release build; sanitizers see every fifth case.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::size_t kEvery = 5;
+#else
+constexpr std::size_t kEvery = 1;
+#endif
+
 struct Method {
     const char* name;
     Quality quality;
@@ -45,7 +52,9 @@ std::array<Method, 4> methods() {
 TEST_CASE("the paper's formulas and its distance rule get hard cases wrong that are right here") {
     std::printf("%-34s %6s %12s %13s %20s\n", "", "cases", "wrong cases", "wrong pixels", "depth off by > 1e-6");
     std::array<Tally, 4> tallies;
+    std::size_t next = 0;
     for (const auto& file : hard_case_files()) {
+        if (next++ % kEvery != 0) continue;
         const HardCase hard_case = read_hard_case(file);
         std::vector<std::uint8_t> ties;
         const GroundTruth exact = reference::ground_truth(hard_case.scene, hard_case.view, &ties);
@@ -59,7 +68,9 @@ TEST_CASE("the paper's formulas and its distance rule get hard cases wrong that 
                     static_cast<long long>(tallies[i].wrong_pixels), tallies[i].inexact_cases);
     const auto& [single, textbook, interpolated, ours] = tallies;
     CHECK(ours.wrong_cases == 0);
+    CHECK(single.wrong_cases > 0);
+    CHECK(interpolated.wrong_cases > 0);
+    if (kEvery > 1) return;
     CHECK(textbook.wrong_cases > 0);
     CHECK(single.wrong_pixels > textbook.wrong_pixels);
-    CHECK(interpolated.wrong_cases > 0);
 }

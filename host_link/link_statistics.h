@@ -33,8 +33,8 @@ struct LinkStatistics {
     std::uint64_t duplicate = 0;
     std::uint64_t reordered = 0;
     std::uint64_t restarts = 0;          ///< the host began to count anew
-    std::uint64_t other_entities = 0;    ///< entities known beside the ownship
-    std::uint64_t entities_dropped = 0;  ///< Entity Control packets that found the entity table full
+    std::uint64_t other_entities = 0;    ///< most shown at a time beside the ownship
+    std::uint64_t entities_dropped = 0;  ///< Entity Control packets that found as many shown as can be
     std::uint64_t answers_dropped = 0;   ///< requests about the scene beyond what is answered at a time
     std::optional<PoseSample> first_pose;
     std::optional<PoseSample> last_pose;

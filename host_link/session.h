@@ -71,7 +71,6 @@ bool in_range(const GeodeticPosition& position, const Attitude& attitude);
 
 class Session {
   public:
-    static constexpr std::size_t kMaxEntities = 256;
     /// Answers to one message, and requests that are repeated.
     static constexpr std::size_t kMostResponses = 64;
     /// Connections whose unfinished writes are kept; of more, those that wrote last.
@@ -108,8 +107,6 @@ class Session {
     [[nodiscard]] const std::optional<ReplyContext>& reply_context() const { return reply_; }
     /// Of the newest Modbus pose; 0 before the first.
     [[nodiscard]] std::uint16_t modbus_sequence() const;
-    /// Newest Entity Control of every entity but the ownship, in the order they appeared.
-    [[nodiscard]] std::span<const cigi::EntityControl> entities() const { return {entities_.data(), entity_count_}; }
 
   private:
     struct Window {
@@ -200,8 +197,6 @@ class Session {
     };
     std::optional<Ephemeris> ephemeris_;
     bool comparable_ = false;  ///< the next pose follows the one before it on the same clock
-    std::array<cigi::EntityControl, kMaxEntities> entities_{};
-    std::size_t entity_count_ = 0;
 };
 
 }  // namespace quadrig::host

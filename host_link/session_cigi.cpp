@@ -55,17 +55,7 @@ std::optional<GeodeticPose> Session::apply(const cigi::EntityControl& packet) {
         return GeodeticPose{{{packet.latitude}, {packet.longitude}, packet.altitude},
                             {{packet.yaw}, {packet.pitch}, {packet.roll}}};
     }
-    const auto end = entities_.begin() + static_cast<std::ptrdiff_t>(entity_count_);
-    const auto known = std::find_if(entities_.begin(), end, [&](const auto& e) { return e.entity == packet.entity; });
     show(packet);
-    if (known != end) {
-        *known = packet;
-    } else if (entity_count_ < kMaxEntities) {
-        entities_[entity_count_++] = packet;
-        statistics_.other_entities = entity_count_;
-    } else {
-        ++statistics_.entities_dropped;
-    }
     return std::nullopt;
 }
 
@@ -83,6 +73,9 @@ void Session::show(const cigi::EntityControl& packet) {
     } else if (known != end || state_.entity_count < kMostShownEntities) {
         if (known == end) ++state_.entity_count;
         *known = {packet.entity, packet.type, scene_frame_.pose(position, attitude)};
+        statistics_.other_entities = std::max<std::uint64_t>(statistics_.other_entities, state_.entity_count);
+    } else {
+        ++statistics_.entities_dropped;
     }
 }
 

@@ -268,66 +268,6 @@ TEST_CASE("Rejected datagrams are counted by reason and change nothing") {
     CHECK(session.statistics().lost == 0);
 }
 
-TEST_CASE("Other entities are kept apart from the ownship, up to a fixed number") {
-    auto options = at_home();
-    options.ownship = 9;
-    Session session(options);
-    auto entity = ownship(10.0);
-    entity.entity = 9;
-    auto other = ownship(20.0);
-    other.entity = 0;
-    session.accept(message(ByteOrder::little, ig_control(0), other, entity, other), 0ms);
-    CHECK(session.state().pose->position.latitude.value == 10.0);
-    REQUIRE(session.entities().size() == 1);
-    CHECK(session.entities()[0].latitude == 20.0);
-    for (std::uint16_t id = 100; id < 100 + 300; ++id) {
-        other.entity = id;
-        session.accept(message(ByteOrder::little, ig_control(id), other), 0ms);
-    }
-    CHECK(session.entities().size() == Session::kMaxEntities);
-    CHECK(session.statistics().entities_dropped == 300 + 1 - Session::kMaxEntities);
-    CHECK(session.statistics().other_entities == Session::kMaxEntities);
-}
-
-TEST_CASE("Entities are shown where their newest packets have them, while they are active and stand by themselves") {
-    Session session(at_home());
-    auto send = [&, frame = 0u](auto entity) mutable {
-        session.accept(message(ByteOrder::big, ig_control(frame++), entity), 0ms);
-    };
-    auto other = ownship(47.001);
-    other.entity = 7, other.type = 12, other.yaw = 90.0F;
-    send(other);
-    REQUIRE(session.state().entity_count == 1);
-    CHECK(session.state().entities[0].id == 7);
-    CHECK(session.state().entities[0].type == 12);
-    const auto expected =
-        SceneFrame(at_home().scene_origin)
-            .pose({{other.latitude}, {other.longitude}, other.altitude}, {{90}, {other.pitch}, {other.roll}});
-    CHECK(session.state().entities[0].pose.position.metres == expected.position.metres);
-    CHECK(session.state().entities[0].pose.eye_from_scene == expected.eye_from_scene);
-
-    auto third = other;
-    third.entity = 8, third.type = 3;
-    send(third);
-    CHECK(session.state().entity_count == 2);
-    for (const auto hide : {0, 1, 2, 3}) {
-        auto hidden = other;
-        if (hide == 0) hidden.state = cigi::EntityState::standby;
-        if (hide == 1) hidden.state = cigi::EntityState::destroyed;
-        if (hide == 2) hidden.attached = true;
-        if (hide == 3) hidden.latitude = 95.0;
-        send(hidden);
-        CHECK(session.state().entity_count == 1);
-        CHECK(session.state().entities[0].id == 8);
-        send(other);
-        CHECK(session.state().entity_count == 2);
-        CHECK(session.state().entities[1].id == 7);
-    }
-    CHECK(session.statistics().rejected_for(Reject::out_of_range) == 1);
-    for (std::uint16_t id = 100; id < 300; ++id) third.entity = id, send(third);
-    CHECK(session.state().entity_count == kMostShownEntities);
-}
-
 TEST_CASE("An attached or a destroyed ownship gives no pose") {
     Session session(at_home());
     auto entity = ownship();

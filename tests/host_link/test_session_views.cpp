@@ -1,6 +1,7 @@
 // Views, environment and the answer to the host.
 #include <catch2/catch.hpp>
 
+#include "host_link/geodesy.h"
 #include "host_link/session.h"
 #include "support.h"
 
@@ -249,4 +250,59 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
         session.accept(message(order, ig), 0ms);
         CHECK(start_of_frame(session.reply_context().value(), 99, 0ms, bytes) == 16);
     }
+}
+
+TEST_CASE("Entities are shown where their newest packets have them, while they are active and stand by themselves") {
+    SessionOptions options;
+    options.scene_origin = {{47.26}, {11.34}, 500.0};
+    Session session(options);
+    auto send = [&, frame = 0u](auto entity) mutable {
+        session.accept(message(ByteOrder::big, ig_control(frame++), entity), 0ms);
+    };
+    auto other = ownship(47.001);
+    other.entity = 7, other.type = 12, other.yaw = 90.0F;
+    send(other);
+    REQUIRE(session.state().entity_count == 1);
+    CHECK(session.state().entities[0].id == 7);
+    CHECK(session.state().entities[0].type == 12);
+    const auto expected =
+        SceneFrame(options.scene_origin)
+            .pose({{other.latitude}, {other.longitude}, other.altitude}, {{90}, {other.pitch}, {other.roll}});
+    CHECK(session.state().entities[0].pose.position.metres == expected.position.metres);
+    CHECK(session.state().entities[0].pose.eye_from_scene == expected.eye_from_scene);
+
+    auto third = other;
+    third.entity = 8, third.type = 3;
+    send(third);
+    CHECK(session.state().entity_count == 2);
+    for (const auto hide : {0, 1, 2, 3}) {
+        auto hidden = other;
+        if (hide == 0) hidden.state = cigi::EntityState::standby;
+        if (hide == 1) hidden.state = cigi::EntityState::destroyed;
+        if (hide == 2) hidden.attached = true;
+        if (hide == 3) hidden.latitude = 95.0;
+        send(hidden);
+        CHECK(session.state().entity_count == 1);
+        CHECK(session.state().entities[0].id == 8);
+        send(other);
+        CHECK(session.state().entity_count == 2);
+        CHECK(session.state().entities[1].id == 7);
+    }
+    CHECK(session.statistics().rejected_for(Reject::out_of_range) == 1);
+    for (std::uint16_t id = 100; id < 300; ++id) third.entity = id, send(third);
+    CHECK(session.state().entity_count == kMostShownEntities);
+    CHECK(session.statistics().other_entities == kMostShownEntities);
+    CHECK(session.statistics().entities_dropped == 200 + 2 - kMostShownEntities);
+}
+
+TEST_CASE("The entity that carries the eye is the one asked for, and is not shown") {
+    SessionOptions options;
+    options.ownship = 9;
+    Session session(options);
+    auto entity = ownship(10.0);
+    entity.entity = 9;
+    session.accept(message(ByteOrder::little, ig_control(0), ownship(20.0), entity, ownship(30.0)), 0ms);
+    CHECK(session.state().pose->position.latitude.value == 10.0);
+    REQUIRE(session.state().entity_count == 1);
+    CHECK(session.state().entities[0].id == 0);
 }

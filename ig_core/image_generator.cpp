@@ -1,8 +1,10 @@
 #include "ig_core/image_generator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "ig_core/scene/motion.h"
@@ -32,11 +34,12 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 
 int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
 
-/// Scratch of one worker; nothing in it survives a row but its memory.
+/// Scratch of one worker; nothing in it survives a strip but its memory.
 struct RowWorker {
+    std::array<std::vector<RowSpan>, kStripRows> spans;
     RowSweep sweep;
     RowShader shader;
-    std::chrono::nanoseconds sweep_time{0}, shade_time{0};
+    std::chrono::nanoseconds sweep_time{0}, draw_time{0};
 };
 
 }  // namespace
@@ -64,8 +67,13 @@ struct ImageGenerator::Impl {
     void assign_strips(const View& view, double smallest_feature);
     /// Ground, decks, markings and lights.
     void look_at_features(const View& view, double pixel_height);
-    /// Spans of one row, swept.
-    void sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& planes, RowSweep& sweep) const;
+    /// Spans of a strip's rows, object by object: each is looked up once.
+    void add_spans(std::span<const PixelRow> rows, bool everything_opaque, const PlaneSurfaces& planes,
+                   std::span<std::vector<RowSpan>> spans) const;
+    /// Sweeps every row of an image, strip by strip, and hands it to `draw(row, worker)`.
+    template <class Draw>
+    void sweep_rows(const View& view, const Quality& quality, bool everything_opaque, const PlaneSurfaces& planes,
+                    Draw&& draw);
 
     Scene scene;
     Workers workers;
@@ -189,22 +197,26 @@ void ImageGenerator::Impl::look_at_features(const View& view, double pixel_heigh
     });
 }
 
-void ImageGenerator::Impl::sweep_row(const PixelRow& row, bool everything_opaque, const PlaneSurfaces& seen_planes,
-                                     RowSweep& sweep) const {
-    sweep.spans.clear();
-    const int strip = row.row / kStripRows;
+void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everything_opaque,
+                                     const PlaneSurfaces& seen_planes, std::span<std::vector<RowSpan>> spans) const {
+    const int strip = rows[0].row / kStripRows;
+    const auto on_every_row = [&](auto&& add) {
+        for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], spans[r]);
+    };
+    for (std::vector<RowSpan>& row_spans : spans) row_spans.clear();
     for (const std::uint32_t i : on_strips.on(strip)) {
         const Outline& outline = outlines[i];
         const bool opaque = everything_opaque || !paints.objects[outline.object].translucent;
-        add_object_spans(outline, i, opaque, row, sweep.spans);
+        on_every_row([&](const PixelRow& row, auto& out) { add_object_spans(outline, i, opaque, row, out); });
     }
     if (!everything_opaque) {
-        for (const std::uint32_t i : lights_on_strips.on(strip)) add_light_span(lights[i], row, sweep.spans);
+        for (const std::uint32_t i : lights_on_strips.on(strip))
+            on_every_row([&](const PixelRow& row, auto& out) { add_light_span(lights[i], row, out); });
         for (const std::uint32_t i : polygons_on_strips.on(strip))
-            add_polygon_span(polygons[i], marked_plane, row, sweep.spans);
+            on_every_row(
+                [&](const PixelRow& row, auto& out) { add_polygon_span(polygons[i], marked_plane, row, out); });
     }
-    add_plane_spans(seen_planes, deck_opaque, row, sweep.spans);
-    sweep.sweep(row);
+    on_every_row([&](const PixelRow& row, auto& out) { add_plane_spans(seen_planes, deck_opaque, row, out); });
 }
 
 namespace {
@@ -233,6 +245,33 @@ PixelRow pixel_row(const View& view, int r, const Quality& quality) {
 
 }  // namespace
 
+template <class Draw>
+void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, bool everything_opaque,
+                                      const PlaneSurfaces& seen_planes, Draw&& draw) {
+    for (RowWorker& worker : row_workers) worker.sweep_time = worker.draw_time = {};
+    const int height = view.image.height;
+    const auto task = [&](int strip, int worker) {
+        RowWorker& own = row_workers[static_cast<std::size_t>(worker)];
+        auto before = Clock::now();
+        std::array<PixelRow, kStripRows> rows;
+        const int first = strip * kStripRows, count = std::min(kStripRows, height - first);
+        for (int r = 0; r < count; ++r) rows[static_cast<std::size_t>(r)] = pixel_row(view, first + r, quality);
+        const auto used = static_cast<std::size_t>(count);
+        add_spans({rows.data(), used}, everything_opaque, seen_planes, {own.spans.data(), used});
+        for (std::size_t r = 0; r < used; ++r) {
+            own.sweep.spans.swap(own.spans[r]);
+            own.sweep.sweep(rows[r]);
+            const auto swept = Clock::now();
+            draw(rows[r], own);
+            const auto drawn = Clock::now();
+            own.sweep_time += swept - before;
+            own.draw_time += drawn - swept;
+            before = drawn;
+        }
+    };
+    workers.run((height + kStripRows - 1) / kStripRows, std::ref(task));
+}
+
 ImageGenerator::ImageGenerator(Scene scene, int threads)
     : impl_(std::make_unique<Impl>(std::move(scene), std::max(1, threads))) {}
 ImageGenerator::~ImageGenerator() = default;
@@ -260,35 +299,21 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     g.look_at_features(view, asked.image.row_step);
     const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
                              quality};
-    for (RowWorker& worker : g.row_workers) worker.sweep_time = worker.shade_time = {};
-
-    const auto task = [&](int strip, int worker) {
-        RowWorker& own = g.row_workers[static_cast<std::size_t>(worker)];
-        auto before = Clock::now();
-        for (int r = strip * kStripRows; r < std::min(view.image.height, (strip + 1) * kStripRows); ++r) {
-            const PixelRow row = pixel_row(view, r, quality);
-            g.sweep_row(row, false, g.planes, own.sweep);
-            const auto swept = Clock::now();
-            own.shader.draw(frame, row, own.sweep);
-            if (!fine)
-                own.shader.write(image.width, image.row(r));
-            else if (r % 2 == 0)
-                own.shader.keep_upper();
-            else
-                own.shader.write_averaged(image.width, image.row(r / 2));
-            const auto shaded = Clock::now();
-            own.sweep_time += swept - before;
-            own.shade_time += shaded - swept;
-            before = shaded;
-        }
-    };
-    g.workers.run((view.image.height + kStripRows - 1) / kStripRows, std::ref(task));
+    g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {
+        own.shader.draw(frame, row, own.sweep);
+        if (!fine)
+            own.shader.write(image.width, image.row(row.row));
+        else if (row.row % 2 == 0)
+            own.shader.keep_upper();
+        else
+            own.shader.write_averaged(image.width, image.row(row.row / 2));
+    });
 
     StageTimes times{};
     times[static_cast<std::size_t>(Stage::select)] = selected - start;
     times[static_cast<std::size_t>(Stage::outline)] = outlined - selected;
     std::chrono::nanoseconds sweep{0}, shade{0};
-    for (const RowWorker& worker : g.row_workers) sweep += worker.sweep_time, shade += worker.shade_time;
+    for (const RowWorker& worker : g.row_workers) sweep += worker.sweep_time, shade += worker.draw_time;
     times[static_cast<std::size_t>(Stage::sweep)] = sweep / g.workers.count();
     times[static_cast<std::size_t>(Stage::shade)] = shade / g.workers.count();
     return times;
@@ -305,27 +330,22 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
     GroundTruth truth;
     truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    const auto task = [&](int strip, int worker) {
-        RowSweep& sweep = g.row_workers[static_cast<std::size_t>(worker)].sweep;
-        for (int r = strip * kStripRows; r < std::min(image.height, (strip + 1) * kStripRows); ++r) {
-            const PixelRow row = pixel_row(view, r, quality);
-            g.sweep_row(row, true, planes, sweep);
-            for (const LayerRun& run : sweep.runs) {
-                const Surface& surface = sweep.spans[sweep.layers[run.first_layer]].surface;
-                if (surface.kind == Surface::Kind::sky) continue;
-                const DepthOnLine depth(surface, row, row.z[0]);
-                const bool ground = surface.kind == Surface::Kind::ground;
-                for (int c = run.from; c < run.to; ++c) {
-                    const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(image.width) +
-                                    static_cast<std::size_t>(c);
-                    truth.object_ids[at] = ground ? kGroundId : static_cast<std::int32_t>(surface.outline->object);
-                    truth.surface_ids[at] = surface.surface;
-                    truth.depth[at] = 1.0 / depth.at(c + 0.5).u;
-                }
+    g.sweep_rows(view, quality, true, planes, [&](const PixelRow& row, RowWorker& own) {
+        const RowSweep& sweep = own.sweep;
+        for (const LayerRun& run : sweep.runs) {
+            const Surface& surface = sweep.spans[sweep.layers[run.first_layer]].surface;
+            if (surface.kind == Surface::Kind::sky) continue;
+            const DepthOnLine depth(surface, row, row.z[0]);
+            const bool ground = surface.kind == Surface::Kind::ground;
+            for (int c = run.from; c < run.to; ++c) {
+                const auto at = static_cast<std::size_t>(row.row) * static_cast<std::size_t>(image.width) +
+                                static_cast<std::size_t>(c);
+                truth.object_ids[at] = ground ? kGroundId : static_cast<std::int32_t>(surface.outline->object);
+                truth.surface_ids[at] = surface.surface;
+                truth.depth[at] = 1.0 / depth.at(c + 0.5).u;
             }
         }
-    };
-    g.workers.run((image.height + kStripRows - 1) / kStripRows, std::ref(task));
+    });
     return truth;
 }
 

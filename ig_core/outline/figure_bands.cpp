@@ -25,7 +25,7 @@ constexpr double kGap = 1e-5;
 /// Which boundary a cut's end was, by the nearest of all candidates.
 Boundary boundary_at(const Outline& outline, double xi, double zeta) {
     if (std::isinf(xi)) return {xi < 0.0 ? Boundary::Kind::left_end : Boundary::Kind::right_end, 0};
-    Boundary best;
+    Boundary best{Boundary::Kind::line, 0};
     double nearest = kInfinity;
     const auto consider = [&](Boundary::Kind kind, std::size_t index) {
         const Boundary boundary{kind, static_cast<std::uint16_t>(index)};

@@ -15,6 +15,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// be long.
 constexpr double kLeastShearCosine = 0.15;
 
+/// A plane whose equation along a line is this small beside its terms holds the line.
+constexpr double kHolds = 1e-13;
+
 /// Rounding of d'Md for unit d: the largest entry of M is about 1.
 constexpr double kFlat = 1e-14;
 
@@ -65,13 +68,18 @@ void set_forms(EyeSolid& e) {
 
 }  // namespace
 
+double rising_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
+}
+
+double falling_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+}
+
 RowRoots roots_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta)));
-    const double beta = conic.beta_at(zeta);
-    const double near = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
-    const double other = conic.gamma_at(zeta) / near;
-    const double own = near / conic.alpha;
-    return beta <= 0.0 ? RowRoots{own, other} : RowRoots{other, own};
+    return {rising_on_row(conic, zeta), falling_on_row(conic, zeta)};
 }
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
@@ -181,6 +189,18 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
     return j.local_offset * i.normal - i.local_offset * j.normal - glm::cross(e.anchor, glm::cross(i.normal, j.normal));
 }
 
+bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
+    // A point kept in vain costs one more question; one lost costs a wrong picture.
+    constexpr double kTolerance = 1e-6;
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        if (&plane == own) continue;
+        const double at = glm::dot(plane.normal, p);
+        if (at + plane.at_eye < -kTolerance * (std::abs(at) + std::abs(plane.at_eye))) return false;
+    }
+    return true;
+}
+
 LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
                       int skip_b) {
     double from = -kInfinity, to = kInfinity;
@@ -188,7 +208,11 @@ LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dv
         if (i == skip_a || i == skip_b) continue;
         const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
         const double slope = glm::dot(plane.normal, direction);
-        const double here = glm::dot(plane.normal, origin) + plane.local_offset;
+        const double reach = glm::dot(plane.normal, origin), here = reach + plane.local_offset;
+        // A third plane through the line takes nothing of it but by rounding.
+        if (slope * slope <= kHolds * kHolds * glm::dot(direction, direction) &&
+            std::abs(here) <= kHolds * (std::abs(reach) + glm::dot(glm::abs(plane.normal), glm::abs(e.anchor))))
+            continue;
         if (slope > 0.0)
             from = std::max(from, -here / slope);
         else if (slope < 0.0)
@@ -196,6 +220,7 @@ LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dv
         else if (here <= 0.0)
             return {1.0, 0.0};
     }
+    if (!(from < to)) return {1.0, 0.0};
     const glm::dvec3 moment = glm::cross(origin, direction);
     std::array<Interval, 2> pieces;
     const int count = inside_quadric(value(e.m, direction), value(e.m, origin, direction) + glm::dot(e.w, direction),

@@ -65,6 +65,9 @@ struct RowRoots {
     double falling;
 };
 RowRoots roots_on_row(const RowConic& conic, double zeta);
+/// The same, one of them.
+double rising_on_row(const RowConic& conic, double zeta);
+double falling_on_row(const RowConic& conic, double zeta);
 
 struct EyeSolid {
     SetUp set_up = SetUp::anchored;
@@ -95,6 +98,10 @@ RowConic limb_on_rows(const EyeSolid& solid);
 RowConic intersection_curve_on_rows(const EyeSolid& solid, const EyePlane& plane);
 glm::dvec3 visibility_line(const EyeSolid& solid, const EyePlane& plane);
 glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const EyePlane& j);
+
+/// Whether a point of the sheared eye space is kept by every plane but `own`, to within a tolerance that errs towards
+/// keeping it.
+bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
 
 /// The part of a line that lies in the solid, {origin + t direction}, origin about the anchor. Planes `skip_a`,
 /// `skip_b` (the ones the line lies in) do not count. Empty where from >= to.

@@ -5,7 +5,6 @@
 namespace quadrig {
 namespace {
 
-/// A key point kept in vain costs one more band; one lost costs a wrong picture.
 constexpr double kTolerance = 1e-6;
 
 /// The two values of t with a t^2 + 2 b t + c = 0 and their count; coincident roots within rounding count as real.
@@ -18,17 +17,6 @@ int real_roots(double a, double b, double c, std::array<double, 2>& t) {
     if (q != 0.0) t[static_cast<std::size_t>(count++)] = c / q;
     if (q == 0.0 && a != 0.0) t[static_cast<std::size_t>(count++)] = 0.0;
     return count;
-}
-
-/// Whether an eye-space point is kept by every plane but `own`.
-bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        if (&plane == own) continue;
-        const double at = glm::dot(plane.normal, p);
-        if (at + plane.at_eye < -kTolerance * (std::abs(at) + std::abs(plane.at_eye))) return false;
-    }
-    return true;
 }
 
 /// Whether the quadric through an eye-space point is entered there by the ray from the eye: p'Mp + v.p <= 0.

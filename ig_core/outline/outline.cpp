@@ -37,17 +37,38 @@ bool misses_row(const RowConic& conic, double zeta) {
     return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
 }
 
-/// Every place on a row where the visible surface may change, sorted.
+/// Every place on a row where the visible surface may change, sorted. Of a bounded solid only what lies on it counts.
 std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
+    const EyeSolid& e = outline.solid;
     std::size_t count = 0;
     const auto add = [&](double xi, Boundary boundary) {
         if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
     };
-    for (std::uint16_t i = 0; i < outline.curves.size(); ++i) {
-        if (misses_row(outline.curves[i], zeta)) continue;
-        const RowRoots roots = roots_on_row(outline.curves[i], zeta);
-        add(roots.rising, {Boundary::Kind::rising, i});
-        add(roots.falling, {Boundary::Kind::falling, i});
+    const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
+        if (misses_row(outline.curves[curve], zeta)) return;
+        const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
+        if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});
+        if (on_solid(roots.falling)) add(roots.falling, {Boundary::Kind::falling, curve});
+    };
+    // The point at k = over/under on the ray; where `under` is little more than rounding, nothing is known of it.
+    const auto kept = [&](const glm::dvec3& d, double over, double under, const EyePlane* own) {
+        constexpr double kUnknown = 1e-8;
+        if (outline.direct || !(std::abs(under) > kUnknown * glm::dot(d, d))) return true;
+        const double k = over / under;
+        return k > 0.0 && kept_by_planes(e, k * d, own);
+    };
+    add_roots(0, [&](double xi) {
+        const glm::dvec3 d(xi, 1.0, zeta);
+        return kept(d, -glm::dot(e.v, d), value(e.m, d), nullptr);
+    });
+    std::uint16_t curve = 1;
+    for (int i = 0; i < e.plane_count; ++i) {
+        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+        if (!plane.cuts) continue;
+        add_roots(curve++, [&](double xi) {
+            const glm::dvec3 d(xi, 1.0, zeta);
+            return kept(d, -plane.at_eye, glm::dot(plane.normal, d), &plane);
+        });
     }
     for (std::uint16_t i = 0; i < outline.lines.size(); ++i)
         if (zeta >= outline.lines[i].zeta_from && zeta <= outline.lines[i].zeta_to)
@@ -68,7 +89,9 @@ void solve_row(const Outline& outline, double zeta, Found&& found) {
     Boundary left_boundary{Boundary::Kind::left_end, 0};
     for (std::size_t i = 0; i <= count; ++i) {
         const double right = i < count ? candidates[i].xi : kInfinity;
-        if (right - left > kSliver) {
+        const bool outside = (i == 0 || i == count) && !outline.direct;  // of a bounded solid: nothing is there
+        if (outside && surface != kNoSurface) found(left_boundary, left, surface = kNoSurface);
+        if (!outside && right - left > kSliver) {
             double middle = 0.5 * (left + right);
             if (!std::isfinite(left))
                 middle = std::isfinite(right) ? right - 1.0 - std::abs(right) : 0.0;
@@ -124,9 +147,9 @@ void find_bands(const RowGrid& rows, Outline& out) {
 double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
     switch (boundary.kind) {
         case Boundary::Kind::rising:
-            return roots_on_row(outline.curves[boundary.index], zeta).rising;
+            return rising_on_row(outline.curves[boundary.index], zeta);
         case Boundary::Kind::falling:
-            return roots_on_row(outline.curves[boundary.index], zeta).falling;
+            return falling_on_row(outline.curves[boundary.index], zeta);
         case Boundary::Kind::line:
             return line_on_row(outline.lines[boundary.index].line, zeta);
         case Boundary::Kind::left_end:

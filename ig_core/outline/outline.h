@@ -20,8 +20,8 @@ namespace quadrig {
 /// A boundary curve of an outline on the way of a scan line.
 struct Boundary {
     enum class Kind : std::uint8_t { rising, falling, line, left_end, right_end };
-    Kind kind = Kind::line;
-    std::uint16_t index = 0;  ///< into Outline::curves or Outline::lines
+    Kind kind;
+    std::uint16_t index;  ///< into Outline::curves or Outline::lines
 };
 
 /// An edge: the image of the line in which two bounding planes meet, over the part that lies on the object.
@@ -67,8 +67,8 @@ struct RowGrid {
 
 /// Part of a scan line on which one surface of an object is seen; x in image-plane units (distance 1), from < to.
 struct Cut {
-    double from = 0, to = 0;
-    int surface = 0;
+    double from, to;
+    int surface;
 };
 /// At most so many cuts on one row: each of the 19 planes and the quadric can show twice.
 inline constexpr int kMaxCuts = 40;

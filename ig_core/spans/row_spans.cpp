@@ -102,6 +102,9 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
 
 void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
                       std::vector<RowSpan>& spans) {
+    const auto lines = static_cast<std::size_t>(row.sub_lines);
+    const double z0 = outline.solid.z0;
+    if (row.z[0] - z0 < outline.zeta_from || row.z[lines - 1] - z0 > outline.zeta_to) return;
     const auto surface_of = [&](int surface) {
         Surface out;
         out.kind = surface == 0 ? Surface::Kind::quadric : Surface::Kind::face;
@@ -115,7 +118,6 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     };
     if (outline.limb_only) {
         RowSpan& span = spans.emplace_back();
-        const auto lines = static_cast<std::size_t>(row.sub_lines);
         limb_on_lines(outline, row.z.data(), lines, span.from.data(), span.to.data());
         const double scale = 1.0 / row.column_step;
         for (std::size_t i = 0; i < lines; ++i) {
@@ -133,7 +135,7 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     const double scale = 1.0 / row.column_step;
     const std::size_t first = spans.size();
     std::array<Cut, kMaxCuts> cuts;
-    for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line) {
+    for (std::size_t line = 0; line < lines; ++line) {
         const int count = cuts_on_row(outline, row.z[line], cuts.data());
         std::size_t next = first;  // cuts and spans both run from left to right
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {

@@ -88,10 +88,19 @@ VisibilityErrors visibility_errors(const Scene& scene, const View& view, const Q
     return errors;
 }
 
+namespace {
+Pixels drawn_picture(const Scene& scene, const View& view) {
+    Pixels drawn(view.image.width, view.image.height);
+    ImageGenerator(scene).render(view, {}, {.sub_scan_lines = 8}, drawn.image());
+    return drawn;
+}
+}  // namespace
+
+void draw_picture(const Scene& scene, const View& view) { drawn_picture(scene, view); }
+
 PictureErrors picture_errors(const Scene& scene, const View& view) {
     const int width = view.image.width, height = view.image.height;
-    Pixels drawn(width, height);
-    ImageGenerator(scene).render(view, {}, {.sub_scan_lines = 8}, drawn.image());
+    const Pixels drawn = drawn_picture(scene, view);
     const Pixels exact = supersampled(scene, view, width * height < 1000 ? kFine : kCoarse);
     PictureErrors errors;
     for (int row = 0; row < height; ++row) {

@@ -26,4 +26,7 @@ struct PictureErrors {
 };
 PictureErrors picture_errors(const Scene& scene, const View& view);
 
+/// Draws the picture that picture_errors() judges, and nothing more: for builds that look for faults of another kind.
+void draw_picture(const Scene& scene, const View& view);
+
 }  // namespace quadrig::test

@@ -31,10 +31,14 @@ void check_cases(const std::string& kind) {
         const auto limit = kDepthLimits.find(hard_case.name);
         CHECK(seen.depth <= (limit == kDepthLimits.end() ? 1e-6 : limit->second));
         if (limit != kDepthLimits.end()) CHECK(seen.depth > 1e-6);
+#if defined(__SANITIZE_ADDRESS__)
+        draw_picture(hard_case.scene, hard_case.view);  // exact pictures take longest, and Release builds have them
+#else
         const PictureErrors picture = picture_errors(hard_case.scene, hard_case.view);
         INFO(picture.worst_pixel);
         CHECK(picture.mean < (seen.pixels > 1000 ? 1.0 : 8.0));
         CHECK(picture.outlier < 40);
+#endif
     }
 }
 

@@ -1,5 +1,7 @@
 #include "ig_core/outline/key_points.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace quadrig {
@@ -25,15 +27,26 @@ bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
     return curved + straight <= kTolerance * (std::abs(curved) + std::abs(straight));
 }
 
+/// A key point on one or two curves.
+void add_key_point(Outline& out, const KeyPoint& point, std::size_t curve, std::size_t other) {
+    out.key_points.push_back(point);
+    for (const std::size_t i : {curve, other}) {
+        CurveRows& rows = out.curve_rows[i];
+        rows.zeta_from = std::min(rows.zeta_from, point.zeta);
+        rows.zeta_to = std::max(rows.zeta_to, point.zeta);
+    }
+}
+
 /// Limb points are where the ray touches the quadric, k = -B/A.
-void add_limb_point(Outline& out, double xi, double zeta, const EyePlane* own, KeyPoint::Kind kind) {
+void add_limb_point(Outline& out, double xi, double zeta, const EyePlane* own, std::size_t curve, KeyPoint::Kind kind) {
     const glm::dvec3 d(xi, 1.0, zeta);
     const double k = -glm::dot(out.solid.v, d) / value(out.solid.m, d);
     if (std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, own))
-        out.key_points.push_back({xi, zeta, kind});
+        add_key_point(out, {xi, zeta, kind}, 0, curve);
 }
 
-void add_curve_extrema(Outline& out, const RowConic& curve, const EyePlane& plane) {
+void add_curve_extrema(Outline& out, std::size_t index, const EyePlane& plane) {
+    const RowConic& curve = out.curves[index];
     std::array<double, 2> zetas;
     const int count = real_roots(curve.discriminant[2], 0.5 * curve.discriminant[1], curve.discriminant[0], zetas);
     for (int i = 0; i < count; ++i) {
@@ -42,12 +55,12 @@ void add_curve_extrema(Outline& out, const RowConic& curve, const EyePlane& plan
         const double k = -plane.at_eye / glm::dot(plane.normal, d);
         if (!(std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, &plane))) continue;
         if (plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d))
-            out.key_points.push_back({xi, zeta, KeyPoint::Kind::curve_extremum});
+            add_key_point(out, {xi, zeta, KeyPoint::Kind::curve_extremum}, index, index);
     }
 }
 
 /// Contact points: limb and visibility line meet (Eq 6, 12).
-void add_contacts(Outline& out, const EyePlane& plane) {
+void add_contacts(Outline& out, std::size_t curve, const EyePlane& plane) {
     const glm::dvec3 v = visibility_line(out.solid, plane);
     const bool by_zeta = std::abs(v.x) >= std::abs(v.z);
     const double lead = by_zeta ? v.x : v.z;
@@ -59,7 +72,7 @@ void add_contacts(Outline& out, const EyePlane& plane) {
     const int count = real_roots(value(limb, step), value(limb, start, step), value(limb, start), t);
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 d = start + t[static_cast<std::size_t>(i)] * step;
-        add_limb_point(out, d.x, d.z, &plane, KeyPoint::Kind::contact);
+        add_limb_point(out, d.x, d.z, &plane, curve, KeyPoint::Kind::contact);
     }
 }
 
@@ -67,10 +80,13 @@ void add_contacts(Outline& out, const EyePlane& plane) {
 
 void find_boundaries(Outline& out) {
     const EyeSolid& e = out.solid;
+    std::array<std::size_t, kMaxEyePlanes> curve_of{};
     for (int i = 0; i < e.plane_count; ++i) {
         const EyePlane& pi = e.planes[static_cast<std::size_t>(i)];
         if (!pi.cuts) continue;
+        curve_of[static_cast<std::size_t>(i)] = out.curves.size();
         out.curves.push_back(intersection_curve_on_rows(e, pi));
+        out.curve_rows.emplace_back();
         for (int j = 0; j < i; ++j) {
             const EyePlane& pj = e.planes[static_cast<std::size_t>(j)];
             if (!pj.cuts) continue;
@@ -96,7 +112,9 @@ void find_boundaries(Outline& out) {
                 const double xi = p.x / p.y, zeta = p.z / p.y;
                 edge.zeta_from = std::min(edge.zeta_from, zeta);
                 edge.zeta_to = std::max(edge.zeta_to, zeta);
-                if (!hidden || quadric_faces_eye(e, p)) out.key_points.push_back({xi, zeta, KeyPoint::Kind::edge_end});
+                if (!hidden || quadric_faces_eye(e, p))
+                    add_key_point(out, {xi, zeta, KeyPoint::Kind::edge_end}, curve_of[static_cast<std::size_t>(i)],
+                                  curve_of[static_cast<std::size_t>(j)]);
             }
             if (!hidden) out.lines.push_back(edge);
         }
@@ -110,14 +128,15 @@ void find_key_points(Outline& out) {
     const int count = real_roots(limb.discriminant[2], 0.5 * limb.discriminant[1], limb.discriminant[0], zetas);
     for (int i = 0; i < count; ++i) {
         const double zeta = zetas[static_cast<std::size_t>(i)];
-        add_limb_point(out, -limb.beta_at(zeta) / limb.alpha, zeta, nullptr, KeyPoint::Kind::limb_extremum);
+        add_limb_point(out, -limb.beta_at(zeta) / limb.alpha, zeta, nullptr, 0, KeyPoint::Kind::limb_extremum);
     }
     std::size_t curve = 1;
     for (int i = 0; i < e.plane_count; ++i) {
         const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
         if (!plane.cuts) continue;
-        add_curve_extrema(out, out.curves[curve++], plane);
-        add_contacts(out, plane);
+        add_curve_extrema(out, curve, plane);
+        add_contacts(out, curve, plane);
+        ++curve;
     }
 }
 

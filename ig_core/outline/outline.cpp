@@ -37,6 +37,11 @@ bool misses_row(const RowConic& conic, double zeta) {
     return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
 }
 
+bool may_be_seen(const CurveRows& rows, double zeta) {
+    constexpr double kRounding = 1e-9;
+    return zeta >= rows.zeta_from - kRounding && zeta <= rows.zeta_to + kRounding;
+}
+
 /// Every place on a row where the visible surface may change, sorted. Of a bounded solid only what lies on it counts.
 std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
     const EyeSolid& e = outline.solid;
@@ -45,6 +50,7 @@ std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Ca
         if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
     };
     const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
+        if (!outline.direct && !may_be_seen(outline.curve_rows[curve], zeta)) return;
         if (misses_row(outline.curves[curve], zeta)) return;
         const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
         if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});
@@ -185,6 +191,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.boundaries.clear();
     out.surfaces.clear();
     out.curves.clear();
+    out.curve_rows.clear();
 
     bool near_plane = true;
     out.near_u = 1.0 / kNearDepth, out.far_u = 0.0;
@@ -203,6 +210,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.direct = endless;
     out.limb_only = solid.planes.empty() && !near_plane && !endless;
     out.curves.push_back(limb_on_rows(out.solid));
+    out.curve_rows.emplace_back();
     if (out.limb_only) {
         const RowConic& limb = out.curves[0];
         // The quadric's silhouette spans the rows between its two extrema: b +- sqrt(b^2 - a c) of the row
@@ -211,6 +219,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         out.zeta_from = (-b + root) / a, out.zeta_to = (-b - root) / a;  // a < 0
         if (!(a < 0.0 && out.zeta_from < out.zeta_to)) out.zeta_from = 1.0, out.zeta_to = -1.0;
+        out.curve_rows[0] = {out.zeta_from, out.zeta_to};
         return;
     }
     find_boundaries(out);

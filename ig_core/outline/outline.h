@@ -30,6 +30,12 @@ struct EdgeLine {
     double zeta_from = 0, zeta_to = 0;
 };
 
+/// Rows on which a curve can be seen: from the first to the last of the key points on it.
+struct CurveRows {
+    double zeta_from = std::numeric_limits<double>::infinity();
+    double zeta_to = -std::numeric_limits<double>::infinity();
+};
+
 /// Rows from zeta_from to zeta_to that show boundaries first..first+count-1 (indices into Outline::boundaries), with
 /// Outline::surfaces[first + i] to the right of boundary i.
 struct ZBand {
@@ -46,7 +52,8 @@ struct KeyPoint {
 struct Outline {
     std::uint32_t object = 0;
     EyeSolid solid;
-    std::vector<RowConic> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
+    std::vector<RowConic> curves;       ///< [0] the limb, then the intersection curves of the planes that cut
+    std::vector<CurveRows> curve_rows;  ///< of each curve; not of solids without end
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
     std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing

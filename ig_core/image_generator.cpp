@@ -2,14 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
+#include <thread>
+#include <utility>
 #include <vector>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/select.h"
 #include "ig_core/shading/row_shader.h"
+#include "ig_core/spans/row_cover.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"
 #include "ig_core/strip_index.h"
@@ -22,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Rows are handed out in strips, so that objects are looked up once for several rows.
 constexpr int kStripRows = 8;  // even: both rows of a pixel that is drawn twice as fine
-constexpr int kSelectBlock = 512, kOutlineBlock = 8;
+constexpr int kSelectBlock = 512;
 
 /// 1/k of the plane Z = altitude over the image: P(k d) = height + k n.d (Eq 7).
 PlaneDepth horizontal_plane(const View& view, double altitude) {
@@ -32,14 +39,31 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
     return {-up.y / height, -up.x / height, -up.z / height};
 }
 
+int strips_of(const ImagePlane& image) { return (image.height + kStripRows - 1) / kStripRows; }
+
+/// First and last strip of what shows between two heights of the image plane; none if it lies outside.
+std::pair<int, int> strips_between(const ImagePlane& image, double z_from, double z_to) {
+    if (!(z_from <= z_to && z_from <= image.top && z_to >= image.z(image.height))) return {1, 0};
+    const auto strip = [&](double z) {
+        const double row = std::floor((image.top - z) / image.row_step);
+        return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
+    };
+    return {strip(z_to), strip(z_from)};
+}
+
+/// What an outline that several workers may ask for has come to.
+enum class OutlineState : std::uint8_t { none, begun, made };
+
 int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
 
 /// Scratch of one worker; nothing in it survives a strip but its memory.
 struct RowWorker {
     std::array<std::vector<RowSpan>, kStripRows> spans;
+    std::array<RowCover, kStripRows> covers;
+    RowCover strip_cover;  // what holds on all of the strip's rows
     RowSweep sweep;
     RowShader shader;
-    std::chrono::nanoseconds sweep_time{0}, draw_time{0};
+    std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
 };
 
 }  // namespace
@@ -62,14 +86,16 @@ struct ImageGenerator::Impl {
     /// Puts what moves where it is: objects by scene time, models by the host.
     void move_objects(const Environment& environment);
 
-    void select(const View& view);
-    void make_outlines(const View& view, const Quality& quality);
-    void assign_strips(const View& view, double smallest_feature);
+    /// Objects that may be in view, front to back, and the strips that they may show on.
+    void select(const View& view, const Quality& quality);
+    void sort_by_depth();
+    /// The outline of a selected object, made by whoever needs it first.
+    const Outline& outline_of(std::uint32_t place, RowWorker& worker);
     /// Ground, decks, markings and lights.
     void look_at_features(const View& view, double pixel_height);
     /// Spans of a strip's rows, object by object: each is looked up once.
     void add_spans(std::span<const PixelRow> rows, bool everything_opaque, const PlaneSurfaces& planes,
-                   std::span<std::vector<RowSpan>> spans) const;
+                   RowWorker& worker);
     /// Sweeps every row of an image, strip by strip, and hands it to `draw(row, worker)`.
     template <class Draw>
     void sweep_rows(const View& view, const Quality& quality, bool everything_opaque, const PlaneSurfaces& planes,
@@ -91,8 +117,19 @@ struct ImageGenerator::Impl {
     std::vector<std::uint8_t> deck_opaque;
     PlaneSurfaces planes;
     std::vector<std::uint8_t> may_be_seen;
-    std::vector<std::uint32_t> selected;
-    std::vector<Outline> outlines;  // one for each selected object; only ever grows, to keep its memory
+    std::vector<ImageBounds> bounds;      // of the solids that may be seen
+    std::vector<std::uint32_t> selected;  // front to back
+    std::vector<std::uint32_t> front_to_back, depth_bins;
+    // One for each selected object; only ever grow, to keep their memory.
+    std::vector<Outline> outlines;
+    std::vector<OutlineState> outline_states;
+    struct OutlineSettings {
+        ScenePoint eye;
+        glm::dmat3 eye_from_scene;
+        RowGrid rows;
+        SetUp set_up;
+        double least_height;  ///< image plane; what is lower is left out
+    } outline_settings;
     StripIndex on_strips, polygons_on_strips, lights_on_strips;
     PlaneDepth marked_plane;
     std::vector<SeenPolygon> polygons;
@@ -118,57 +155,74 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
     }
 }
 
-void ImageGenerator::Impl::select(const View& view) {
+void ImageGenerator::Impl::select(const View& view, const Quality& quality) {
     const ImagePlane& image = view.image;
     const auto count = static_cast<int>(solid_count);
     may_be_seen.resize(solid_count);
+    bounds.resize(solid_count);
     const auto walls = walls_of(view);
     const auto task = [&](int block, int) {
         const int end = std::min(count, (block + 1) * kSelectBlock);
-        for (int i = block * kSelectBlock; i < end; ++i)
-            may_be_seen[static_cast<std::size_t>(i)] =
-                spheres[static_cast<std::size_t>(i)].reaches_into(walls) &&
-                may_be_in_view(solids[static_cast<std::size_t>(i)], view.eye, view.eye_from_scene, image.left,
-                               image.x(image.width), image.z(image.height), image.top);
+        for (auto i = static_cast<std::size_t>(block * kSelectBlock); i < static_cast<std::size_t>(end); ++i) {
+            may_be_seen[i] = spheres[i].reaches_into(walls);
+            if (may_be_seen[i] == 0) continue;
+            bounds[i] = image_bounds(solids[i], view.eye, view.eye_from_scene);
+            may_be_seen[i] = bounds[i].may_show_on(image);
+        }
     };
     workers.run((count + kSelectBlock - 1) / kSelectBlock, std::ref(task));
     selected.clear();
     for (std::uint32_t i = 0; i < may_be_seen.size(); ++i)
         if (may_be_seen[i] != 0) selected.push_back(i);
-}
+    sort_by_depth();
 
-void ImageGenerator::Impl::make_outlines(const View& view, const Quality& quality) {
-    const int sub_lines = sub_lines_of(quality);
-    const RowGrid rows{view.image.top, view.image.row_step / sub_lines, view.image.height * sub_lines};
     if (outlines.size() < selected.size()) outlines.resize(selected.size());
-    const auto count = static_cast<int>(selected.size());
-    const auto task = [&](int block, int) {
-        const int end = std::min(count, (block + 1) * kOutlineBlock);
-        for (int i = block * kOutlineBlock; i < end; ++i) {
-            const std::uint32_t object = selected[static_cast<std::size_t>(i)];
-            make_outline(solids[object], object, view.eye, view.eye_from_scene, rows,
-                         outlines[static_cast<std::size_t>(i)], quality.set_up);
-        }
-    };
-    workers.run((count + kOutlineBlock - 1) / kOutlineBlock, std::ref(task));
-    assign_strips(view, quality.smallest_feature);
+    outline_states.assign(selected.size(), OutlineState::none);
+    const int sub_lines = sub_lines_of(quality);
+    outline_settings = {view.eye,
+                        view.eye_from_scene,
+                        {image.top, image.row_step / sub_lines, image.height * sub_lines},
+                        quality.set_up,
+                        quality.smallest_feature * image.row_step};
+    on_strips.sort(strips_of(image), selected.size(), [&](std::size_t place) {
+        const ImageBounds& b = bounds[selected[place]];
+        return strips_between(image, b.z_from, b.z_to);
+    });
 }
 
-void ImageGenerator::Impl::assign_strips(const View& view, double smallest_feature) {
-    const ImagePlane& image = view.image;
-    const int strips = (image.height + kStripRows - 1) / kStripRows;
-    const auto strips_of = [&](const Outline& outline) {
-        const double first = (image.top - (outline.zeta_to + outline.solid.z0)) / image.row_step;
-        const double last = (image.top - (outline.zeta_from + outline.solid.z0)) / image.row_step;
-        if (!(outline.zeta_from <= outline.zeta_to) || !(last >= 0.0) || !(first <= image.height) ||
-            last - first < smallest_feature)
-            return std::pair{1, 0};
-        const auto strip = [&](double row) {
-            return static_cast<int>(std::clamp(std::floor(row), 0.0, image.height - 1.0)) / kStripRows;
-        };
-        return std::pair{strip(first), strip(last)};
+void ImageGenerator::Impl::sort_by_depth() {
+    // Roughly is enough, and a count by the leading bits of a float takes a tenth of a sort's time.
+    const auto bin_of = [&](std::uint32_t object) {
+        const auto nearest = static_cast<float>(std::max(bounds[object].nearest, 0.0));
+        return std::bit_cast<std::uint32_t>(nearest) >> 18;  // five bits of mantissa
     };
-    on_strips.sort(strips, selected.size(), [&](std::size_t i) { return strips_of(outlines[i]); });
+    depth_bins.assign((std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 18) + 2, 0);
+    for (const std::uint32_t object : selected) ++depth_bins[bin_of(object) + 1];
+    for (std::size_t bin = 1; bin < depth_bins.size(); ++bin) depth_bins[bin] += depth_bins[bin - 1];
+    front_to_back.resize(selected.size());
+    for (const std::uint32_t object : selected) front_to_back[depth_bins[bin_of(object)]++] = object;
+    selected.swap(front_to_back);
+}
+
+const Outline& ImageGenerator::Impl::outline_of(std::uint32_t place, RowWorker& worker) {
+    Outline& outline = outlines[place];
+    const std::atomic_ref state(outline_states[place]);
+    OutlineState seen = OutlineState::none;
+    if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
+        const auto start = Clock::now();
+        const OutlineSettings& s = outline_settings;
+        make_outline(solids[selected[place]], selected[place], s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
+        if (outline.zeta_to - outline.zeta_from < s.least_height) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
+        state.store(OutlineState::made, std::memory_order_release);
+        worker.outline_time += Clock::now() - start;
+        return outline;
+    }
+    // Another worker is at it, for some microseconds: the frame is not finished before it is, either.
+    while (seen != OutlineState::made) {
+        std::this_thread::yield();
+        seen = state.load(std::memory_order_acquire);
+    }
+    return outline;
 }
 
 void ImageGenerator::Impl::look_at_features(const View& view, double pixel_height) {
@@ -180,34 +234,48 @@ void ImageGenerator::Impl::look_at_features(const View& view, double pixel_heigh
     marked_plane = horizontal_plane(view, 0.0);
     look_at(scene.ground_polygons, view, polygons);
     look_at(scene.lights, view, kLeastLightPixels * pixel_height, lights);
-    const int strips = (image.height + kStripRows - 1) / kStripRows;
-    const auto strips_of = [&](double z_from, double z_to) {
-        const auto strip = [&](double z) {
-            const double row = std::floor((image.top - z) / image.row_step);
-            return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
-        };
-        return std::pair{strip(z_to), strip(z_from)};
-    };
-    polygons_on_strips.sort(strips, polygons.size(), [&](std::size_t i) {
-        return strips_of(polygons[i].z_from - image.row_step, polygons[i].z_to + image.row_step);
+    polygons_on_strips.sort(strips_of(image), polygons.size(), [&](std::size_t i) {
+        return strips_between(image, polygons[i].z_from - image.row_step, polygons[i].z_to + image.row_step);
     });
-    lights_on_strips.sort(strips, lights.size(), [&](std::size_t i) {
+    lights_on_strips.sort(strips_of(image), lights.size(), [&](std::size_t i) {
         const double reach = (lights[i].rows + 1.0) * image.row_step;
-        return strips_of(lights[i].z - reach, lights[i].z + reach);
+        return strips_between(image, lights[i].z - reach, lights[i].z + reach);
     });
 }
 
 void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everything_opaque,
-                                     const PlaneSurfaces& seen_planes, std::span<std::vector<RowSpan>> spans) const {
+                                     const PlaneSurfaces& seen_planes, RowWorker& worker) {
     const int strip = rows[0].row / kStripRows;
     const auto on_every_row = [&](auto&& add) {
-        for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], spans[r]);
+        for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], worker.spans[r]);
     };
-    for (std::vector<RowSpan>& row_spans : spans) row_spans.clear();
-    for (const std::uint32_t i : on_strips.on(strip)) {
-        const Outline& outline = outlines[i];
-        const bool opaque = everything_opaque || !paints.objects[outline.object].translucent;
-        on_every_row([&](const PixelRow& row, auto& out) { add_object_spans(outline, i, opaque, row, out); });
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        worker.spans[r].clear();
+        worker.covers[r].clear(rows[r].columns);
+    }
+    worker.strip_cover.clear(rows[0].columns);
+    for (const std::uint32_t place : on_strips.on(strip)) {
+        const ImageBounds& around = bounds[selected[place]];
+        const double near_u = around.in_front() ? 1.0 / around.nearest : 1.0 / kNearDepth;
+        const double from = rows[0].column(around.x_from), to = rows[0].column(around.x_to);
+        if (worker.strip_cover.hides(from, to, near_u)) continue;
+        const bool opaque = everything_opaque || !paints.objects[selected[place]].translucent;
+        CoveredColumns on_all_rows{0, rows[0].columns, 1.0 / kNearDepth};
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            const PixelRow& row = rows[r];
+            CoveredColumns covered{0, 0, 0.0};
+            if (row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
+                !worker.covers[r].hides(from, to, near_u)) {
+                std::vector<RowSpan>& spans = worker.spans[r];
+                const std::size_t before = spans.size();
+                add_object_spans(outline_of(place, worker), place, opaque, row, spans);
+                if (opaque && around.in_front()) covered = columns_covered(std::span(spans).subspan(before));
+                worker.covers[r].add(covered.from, covered.to, covered.far_u);
+            }
+            on_all_rows = {std::max(on_all_rows.from, covered.from), std::min(on_all_rows.to, covered.to),
+                           std::min(on_all_rows.far_u, covered.far_u)};
+        }
+        worker.strip_cover.add(on_all_rows.from, on_all_rows.to, on_all_rows.far_u);
     }
     if (!everything_opaque) {
         for (const std::uint32_t i : lights_on_strips.on(strip))
@@ -248,16 +316,19 @@ PixelRow pixel_row(const View& view, int r, const Quality& quality) {
 template <class Draw>
 void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, bool everything_opaque,
                                       const PlaneSurfaces& seen_planes, Draw&& draw) {
-    for (RowWorker& worker : row_workers) worker.sweep_time = worker.draw_time = {};
+    for (RowWorker& worker : row_workers) worker.outline_time = worker.sweep_time = worker.draw_time = {};
     const int height = view.image.height;
     const auto task = [&](int strip, int worker) {
         RowWorker& own = row_workers[static_cast<std::size_t>(worker)];
-        auto before = Clock::now();
+        const auto start = Clock::now();
+        const auto outlines_before = own.outline_time;
         std::array<PixelRow, kStripRows> rows;
         const int first = strip * kStripRows, count = std::min(kStripRows, height - first);
         for (int r = 0; r < count; ++r) rows[static_cast<std::size_t>(r)] = pixel_row(view, first + r, quality);
         const auto used = static_cast<std::size_t>(count);
-        add_spans({rows.data(), used}, everything_opaque, seen_planes, {own.spans.data(), used});
+        add_spans({rows.data(), used}, everything_opaque, seen_planes, own);
+        auto before = Clock::now();
+        own.sweep_time += before - start - (own.outline_time - outlines_before);
         for (std::size_t r = 0; r < used; ++r) {
             own.sweep.spans.swap(own.spans[r]);
             own.sweep.sweep(rows[r]);
@@ -269,7 +340,7 @@ void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, 
             before = drawn;
         }
     };
-    workers.run((height + kStripRows - 1) / kStripRows, std::ref(task));
+    workers.run(strips_of(view.image), std::ref(task));
 }
 
 ImageGenerator::ImageGenerator(Scene scene, int threads)
@@ -290,10 +361,8 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     }
     const auto start = Clock::now();
     g.move_objects(environment);
-    g.select(view);
+    g.select(view, quality);
     const auto selected = Clock::now();
-    g.make_outlines(view, quality);
-    const auto outlined = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
     g.look_at_features(view, asked.image.row_step);
@@ -311,9 +380,10 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
 
     StageTimes times{};
     times[static_cast<std::size_t>(Stage::select)] = selected - start;
-    times[static_cast<std::size_t>(Stage::outline)] = outlined - selected;
-    std::chrono::nanoseconds sweep{0}, shade{0};
-    for (const RowWorker& worker : g.row_workers) sweep += worker.sweep_time, shade += worker.draw_time;
+    std::chrono::nanoseconds outline{0}, sweep{0}, shade{0};
+    for (const RowWorker& worker : g.row_workers)
+        outline += worker.outline_time, sweep += worker.sweep_time, shade += worker.draw_time;
+    times[static_cast<std::size_t>(Stage::outline)] = outline / g.workers.count();
     times[static_cast<std::size_t>(Stage::sweep)] = sweep / g.workers.count();
     times[static_cast<std::size_t>(Stage::shade)] = shade / g.workers.count();
     return times;
@@ -324,8 +394,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
     g.move_objects(environment);
-    g.select(view);
-    g.make_outlines(view, quality);
+    g.select(view, quality);
     PlaneSurfaces planes;
     if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
     GroundTruth truth;

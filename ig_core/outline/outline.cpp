@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/key_points.h"
 
 namespace quadrig {
@@ -166,22 +167,6 @@ double intercept(const Outline& outline, const Boundary& boundary, double zeta) 
     return kInfinity;
 }
 
-bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, double x_from,
-                    double x_to, double z_from, double z_to) {
-    if (!solid.ellipsoid) return true;
-    const glm::dmat3 scene_from_eye = glm::transpose(eye_from_scene);
-    const glm::dvec3 to_anchor = solid.anchor.metres - eye.metres;
-    // Inside the half-space n.p > offset as far as the ellipsoid reaches along n: sqrt(-c n' M^-1 n).
-    const auto reaches = [&](const glm::dvec3& n_eye, double offset) {
-        const glm::dvec3 n = scene_from_eye * n_eye;
-        const double extent2 = -solid.c * value(solid.adjugate, n) / solid.determinant;
-        const double distance = glm::dot(n, to_anchor) - offset;
-        return distance > 0.0 || distance * distance <= extent2 * (1.0 + 1e-9);
-    };
-    return solid.c < 0.0 && reaches({0, 1, 0}, kNearDepth) && reaches({1, -x_from, 0}, 0) &&
-           reaches({-1, x_to, 0}, 0) && reaches({0, -z_from, 1}, 0) && reaches({0, z_to, -1}, 0);
-}
-
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up) {
     out.object = object;
@@ -193,17 +178,10 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.curves.clear();
     out.curve_rows.clear();
 
-    bool near_plane = true;
-    out.near_u = 1.0 / kNearDepth, out.far_u = 0.0;
-    if (solid.ellipsoid) {
-        const glm::dvec3 forward(eye_from_scene[0].y, eye_from_scene[1].y, eye_from_scene[2].y);
-        const double distance = glm::dot(forward, solid.anchor.metres - eye.metres);
-        const double extent =
-            std::sqrt(std::max(0.0, -solid.c * value(solid.adjugate, forward) / solid.determinant)) * (1.0 + 1e-9);
-        near_plane = !(distance - extent > kNearDepth);
-        if (!near_plane) out.near_u = 1.0 / (distance - extent);
-        if (distance + extent > 0.0) out.far_u = 1.0 / (distance + extent);
-    }
+    const ImageBounds bounds = image_bounds(solid, eye, eye_from_scene);
+    const bool near_plane = !bounds.in_front();
+    out.near_u = near_plane ? 1.0 / kNearDepth : 1.0 / bounds.nearest;
+    out.far_u = bounds.farthest > 0.0 ? 1.0 / bounds.farthest : 0.0;
     const bool endless = solid.may_be_endless;
     look_at(solid, eye, eye_from_scene, near_plane, endless, set_up, out.solid);
 

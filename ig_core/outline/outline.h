@@ -80,11 +80,6 @@ struct Cut {
 /// At most so many cuts on one row: each of the 19 planes and the quadric can show twice.
 inline constexpr int kMaxCuts = 40;
 
-/// True where some part of the solid may lie in front of k_near and inside the view window, by its own extent
-/// (ellipsoids), or nothing is known about it.
-bool may_be_in_view(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, double x_from,
-                    double x_to, double z_from, double z_to);
-
 /// Builds the outline. Reuses the memory of `out`.
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);

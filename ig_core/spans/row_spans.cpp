@@ -166,6 +166,17 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     spans.resize(kept);
 }
 
+CoveredColumns columns_covered(std::span<const RowSpan> spans) {
+    CoveredColumns covered{std::numeric_limits<int>::max(), 0, 1.0 / kNearDepth};
+    for (const RowSpan& span : spans) {
+        covered.far_u = std::min(covered.far_u, span.surface.far_u);
+        if (span.inner_from >= span.inner_to) continue;
+        covered.from = std::min(covered.from, span.inner_from);
+        covered.to = std::max(covered.to, span.inner_to);
+    }
+    return covered;
+}
+
 void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,
                      std::vector<RowSpan>& spans) {
     Surface surface;

@@ -40,6 +40,15 @@ void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, cons
 /// over the line's share of the row, so that all of them together are as bright as the disc is large.
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans);
 
+/// Columns [from, to) that a convex object which lies all in front of the near plane covers whole by its spans on a
+/// row, and a bound of 1/k on them: 1/k is concave over such an object's picture, so that the ends of spans bound what
+/// lies between.
+struct CoveredColumns {
+    int from = 0, to = 0;
+    double far_u = 0;
+};
+CoveredColumns columns_covered(std::span<const RowSpan> spans);
+
 /// Fits outer and inner columns to the ends on the sub-scan lines, clipped to the image. False if nothing is left.
 bool fit_columns(const PixelRow& row, RowSpan& span);
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/outline.h"
 #include "tests/ig_core/exact_solid.h"
 #include "tests/ig_core/random_objects.h"
@@ -51,17 +52,18 @@ Count compare(const Case& given, int trial) {
     const RowGrid rows{image.top, image.row_step, image.height};
     Outline outline;
     make_outline(solid, 7, view.eye, view.eye_from_scene, rows, outline);
-    const bool in_view = may_be_in_view(solid, view.eye, view.eye_from_scene, image.left, image.x(image.width),
-                                        image.z(image.height), image.top);
+    const ImageBounds bounds = image_bounds(solid, view.eye, view.eye_from_scene);
     Count count;
     std::array<Cut, kMaxCuts> cuts;
     for (int r = 0; r < image.height; ++r) {
         const double z = image.z(r + 0.5);
-        const int cut_count = in_view ? cuts_on_row(outline, z, cuts.data()) : 0;
+        const bool on_row = bounds.may_show_on(image) && z >= bounds.z_from && z <= bounds.z_to;
+        const int cut_count = on_row ? cuts_on_row(outline, z, cuts.data()) : 0;
         for (int c = 0; c < image.width; ++c) {
             const double x = image.x(c + 0.5);
+            const bool in_column = x >= bounds.x_from && x <= bounds.x_to;
             int surface = -1;
-            for (int i = 0; i < cut_count; ++i)
+            for (int i = 0; i < (in_column ? cut_count : 0); ++i)
                 if (x >= cuts[static_cast<std::size_t>(i)].from && x < cuts[static_cast<std::size_t>(i)].to)
                     surface = cuts[static_cast<std::size_t>(i)].surface;
             const int expected = surface_through(exact, view.eye_from_scene, x, z);

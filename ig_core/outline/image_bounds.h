@@ -1,0 +1,25 @@
+/// Where a solid can be on the image, and how deep: bounds that are known before any outline is made.
+#pragma once
+
+#include <limits>
+
+#include "ig_core/scene/solid.h"
+#include "ig_core/view.h"
+
+namespace quadrig {
+
+/// Holds all of a solid that lies in front of the near plane. Image-plane units (distance 1) and metres along the look
+/// direction; a solid that reaches behind the near plane, or without end, may be anywhere on the image.
+struct ImageBounds {
+    double x_from = -std::numeric_limits<double>::infinity(), x_to = std::numeric_limits<double>::infinity();
+    double z_from = -std::numeric_limits<double>::infinity(), z_to = std::numeric_limits<double>::infinity();
+    double nearest = -std::numeric_limits<double>::infinity(), farthest = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }
+    [[nodiscard]] bool may_show_on(const ImagePlane& image) const;
+};
+
+/// An ellipsoid is bounded by its own extent, everything else by its bounding sphere; errs on the side of more.
+ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene);
+
+}  // namespace quadrig

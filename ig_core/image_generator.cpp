@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <span>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include "ig_core/outline/image_bounds.h"
+#include "ig_core/objects_in_view.h"
 #include "ig_core/scene/motion.h"
-#include "ig_core/select.h"
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_cover.h"
 #include "ig_core/spans/row_spans.h"
@@ -27,10 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rows are handed out in strips, so that objects are looked up once for several rows.
-constexpr int kStripRows = 8;  // even: both rows of a pixel that is drawn twice as fine
-constexpr int kSelectBlock = 512;
-
 /// 1/k of the plane Z = altitude over the image: P(k d) = height + k n.d (Eq 7).
 PlaneDepth horizontal_plane(const View& view, double altitude) {
     const double height = view.eye.metres.z - altitude;
@@ -38,23 +29,6 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
     if (height == 0.0) return {};  // edge-on: nowhere in front
     return {-up.y / height, -up.x / height, -up.z / height};
 }
-
-int strips_of(const ImagePlane& image) { return (image.height + kStripRows - 1) / kStripRows; }
-
-/// First and last strip of what shows between two heights of the image plane; none if it lies outside.
-std::pair<int, int> strips_between(const ImagePlane& image, double z_from, double z_to) {
-    if (!(z_from <= z_to && z_from <= image.top && z_to >= image.z(image.height))) return {1, 0};
-    const auto strip = [&](double z) {
-        const double row = std::floor((image.top - z) / image.row_step);
-        return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
-    };
-    return {strip(z_to), strip(z_from)};
-}
-
-/// What an outline that several workers may ask for has come to.
-enum class OutlineState : std::uint8_t { none, begun, made };
-
-int sub_lines_of(const Quality& quality) { return std::clamp(quality.sub_scan_lines, 1, kMaxSubScanLines); }
 
 /// Scratch of one worker; nothing in it survives a strip but its memory.
 struct RowWorker {
@@ -86,11 +60,6 @@ struct ImageGenerator::Impl {
     /// Puts what moves where it is: objects by scene time, models by the host.
     void move_objects(const Environment& environment);
 
-    /// Objects that may be in view, front to back, and the strips that they may show on.
-    void select(const View& view, const Quality& quality);
-    void sort_by_depth();
-    /// The outline of a selected object, made by whoever needs it first.
-    const Outline& outline_of(std::uint32_t place, RowWorker& worker);
     /// Ground, decks, markings and lights.
     void look_at_features(const View& view, double pixel_height);
     /// Spans of a strip's rows, object by object: each is looked up once.
@@ -116,21 +85,8 @@ struct ImageGenerator::Impl {
     FramePaints paints;
     std::vector<std::uint8_t> deck_opaque;
     PlaneSurfaces planes;
-    std::vector<std::uint8_t> may_be_seen;
-    std::vector<ImageBounds> bounds;      // of the solids that may be seen
-    std::vector<std::uint32_t> selected;  // front to back
-    std::vector<std::uint32_t> front_to_back, depth_bins;
-    // One for each selected object; only ever grow, to keep their memory.
-    std::vector<Outline> outlines;
-    std::vector<OutlineState> outline_states;
-    struct OutlineSettings {
-        ScenePoint eye;
-        glm::dmat3 eye_from_scene;
-        RowGrid rows;
-        SetUp set_up;
-        double least_height;  ///< image plane; what is lower is left out
-    } outline_settings;
-    StripIndex on_strips, polygons_on_strips, lights_on_strips;
+    ObjectsInView objects;
+    StripIndex polygons_on_strips, lights_on_strips;
     PlaneDepth marked_plane;
     std::vector<SeenPolygon> polygons;
     std::vector<SeenLight> lights;
@@ -153,76 +109,6 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
             paints.objects[solid_count] = paints.models[body.model][i];
         }
     }
-}
-
-void ImageGenerator::Impl::select(const View& view, const Quality& quality) {
-    const ImagePlane& image = view.image;
-    const auto count = static_cast<int>(solid_count);
-    may_be_seen.resize(solid_count);
-    bounds.resize(solid_count);
-    const auto walls = walls_of(view);
-    const auto task = [&](int block, int) {
-        const int end = std::min(count, (block + 1) * kSelectBlock);
-        for (auto i = static_cast<std::size_t>(block * kSelectBlock); i < static_cast<std::size_t>(end); ++i) {
-            may_be_seen[i] = spheres[i].reaches_into(walls);
-            if (may_be_seen[i] == 0) continue;
-            bounds[i] = image_bounds(solids[i], view.eye, view.eye_from_scene);
-            may_be_seen[i] = bounds[i].may_show_on(image);
-        }
-    };
-    workers.run((count + kSelectBlock - 1) / kSelectBlock, std::ref(task));
-    selected.clear();
-    for (std::uint32_t i = 0; i < may_be_seen.size(); ++i)
-        if (may_be_seen[i] != 0) selected.push_back(i);
-    sort_by_depth();
-
-    if (outlines.size() < selected.size()) outlines.resize(selected.size());
-    outline_states.assign(selected.size(), OutlineState::none);
-    const int sub_lines = sub_lines_of(quality);
-    outline_settings = {view.eye,
-                        view.eye_from_scene,
-                        {image.top, image.row_step / sub_lines, image.height * sub_lines},
-                        quality.set_up,
-                        quality.smallest_feature * image.row_step};
-    on_strips.sort(strips_of(image), selected.size(), [&](std::size_t place) {
-        const ImageBounds& b = bounds[selected[place]];
-        return strips_between(image, b.z_from, b.z_to);
-    });
-}
-
-void ImageGenerator::Impl::sort_by_depth() {
-    // Roughly is enough, and a count by the leading bits of a float takes a tenth of a sort's time.
-    const auto bin_of = [&](std::uint32_t object) {
-        const auto nearest = static_cast<float>(std::max(bounds[object].nearest, 0.0));
-        return std::bit_cast<std::uint32_t>(nearest) >> 18;  // five bits of mantissa
-    };
-    depth_bins.assign((std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 18) + 2, 0);
-    for (const std::uint32_t object : selected) ++depth_bins[bin_of(object) + 1];
-    for (std::size_t bin = 1; bin < depth_bins.size(); ++bin) depth_bins[bin] += depth_bins[bin - 1];
-    front_to_back.resize(selected.size());
-    for (const std::uint32_t object : selected) front_to_back[depth_bins[bin_of(object)]++] = object;
-    selected.swap(front_to_back);
-}
-
-const Outline& ImageGenerator::Impl::outline_of(std::uint32_t place, RowWorker& worker) {
-    Outline& outline = outlines[place];
-    const std::atomic_ref state(outline_states[place]);
-    OutlineState seen = OutlineState::none;
-    if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
-        const auto start = Clock::now();
-        const OutlineSettings& s = outline_settings;
-        make_outline(solids[selected[place]], selected[place], s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
-        if (outline.zeta_to - outline.zeta_from < s.least_height) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
-        state.store(OutlineState::made, std::memory_order_release);
-        worker.outline_time += Clock::now() - start;
-        return outline;
-    }
-    // Another worker is at it, for some microseconds: the frame is not finished before it is, either.
-    while (seen != OutlineState::made) {
-        std::this_thread::yield();
-        seen = state.load(std::memory_order_acquire);
-    }
-    return outline;
 }
 
 void ImageGenerator::Impl::look_at_features(const View& view, double pixel_height) {
@@ -254,12 +140,12 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
         worker.covers[r].clear(rows[r].columns);
     }
     worker.strip_cover.clear(rows[0].columns);
-    for (const std::uint32_t place : on_strips.on(strip)) {
-        const ImageBounds& around = bounds[selected[place]];
+    for (const std::uint32_t place : objects.on(strip)) {
+        const ImageBounds& around = objects.bounds(place);
         const double near_u = around.in_front() ? 1.0 / around.nearest : 1.0 / kNearDepth;
         const double from = rows[0].column(around.x_from), to = rows[0].column(around.x_to);
         if (worker.strip_cover.hides(from, to, near_u)) continue;
-        const bool opaque = everything_opaque || !paints.objects[selected[place]].translucent;
+        const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;
         CoveredColumns on_all_rows{0, rows[0].columns, 1.0 / kNearDepth};
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const PixelRow& row = rows[r];
@@ -268,7 +154,7 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
                 !worker.covers[r].hides(from, to, near_u)) {
                 std::vector<RowSpan>& spans = worker.spans[r];
                 const std::size_t before = spans.size();
-                add_object_spans(outline_of(place, worker), place, opaque, row, spans);
+                add_object_spans(objects.outline(place, worker.outline_time), place, opaque, row, spans);
                 if (opaque && around.in_front()) covered = columns_covered(std::span(spans).subspan(before));
                 worker.covers[r].add(covered.from, covered.to, covered.far_u);
             }
@@ -297,7 +183,7 @@ ImagePlane twice_as_fine(ImagePlane image) {
 }
 
 PixelRow pixel_row(const View& view, int r, const Quality& quality) {
-    const int sub_lines = sub_lines_of(quality);
+    const int sub_lines = quality.lines_per_row();
     PixelRow row;
     row.row = r;
     row.sub_lines = sub_lines;
@@ -361,7 +247,7 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     }
     const auto start = Clock::now();
     g.move_objects(environment);
-    g.select(view, quality);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, view, quality, g.workers);
     const auto selected = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
@@ -394,7 +280,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
     g.move_objects(environment);
-    g.select(view, quality);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, view, quality, g.workers);
     PlaneSurfaces planes;
     if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
     GroundTruth truth;

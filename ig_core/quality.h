@@ -2,6 +2,7 @@
 /// error can be measured, and a frame that is short of time can choose.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace quadrig {
@@ -44,6 +45,9 @@ struct Quality {
     bool smooth_stretches = true;  ///< what changes slowly along a row is interpolated between samples
     ShadingRate shading = ShadingRate::one;
     double smallest_feature = 0.0;  ///< pixels: objects whose outlines are less high are left out
+
+    /// Scan lines on which a row of pixels is asked for, 1..8.
+    [[nodiscard]] int lines_per_row() const { return std::clamp(sub_scan_lines, 1, 8); }
 
     friend bool operator==(const Quality&, const Quality&) = default;
 };

@@ -18,6 +18,11 @@ ViewWalls walls_of(const View& view) {
             wall({0, -image.z(image.height), 1}, 0), wall({0, image.top, -1}, 0)};
 }
 
+bool may_show_on(const ImagePlane& image, const ImageBounds& bounds) {
+    return !bounds.behind() && bounds.x_to >= image.left && bounds.x_from <= image.x(image.width) &&
+           bounds.z_from <= image.top && bounds.z_to >= image.z(image.height);
+}
+
 bool BoundingSphere::reaches_into(const ViewWalls& walls) const {
     constexpr double kRounding = 1e-9;
     return std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/view.h"
 
 namespace quadrig {
@@ -24,5 +25,8 @@ struct BoundingSphere {
     /// Errs on the side of yes.
     [[nodiscard]] bool reaches_into(const ViewWalls& walls) const;
 };
+
+/// Whether something within these bounds may show on an image.
+bool may_show_on(const ImagePlane& image, const ImageBounds& bounds);
 
 }  // namespace quadrig

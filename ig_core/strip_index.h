@@ -2,11 +2,30 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "ig_core/view.h"
+
 namespace quadrig {
+
+/// Rows are handed out in strips, so that objects are looked up once for several rows.
+inline constexpr int kStripRows = 8;  // even: both rows of a pixel that is drawn twice as fine
+
+inline int strips_of(const ImagePlane& image) { return (image.height + kStripRows - 1) / kStripRows; }
+
+/// First and last strip of what shows between two heights of the image plane; none if it lies outside.
+inline std::pair<int, int> strips_between(const ImagePlane& image, double z_from, double z_to) {
+    if (!(z_from <= z_to && z_from <= image.top && z_to >= image.z(image.height))) return {1, 0};
+    const auto strip = [&](double z) {
+        const double row = std::floor((image.top - z) / image.row_step);
+        return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
+    };
+    return {strip(z_to), strip(z_from)};
+}
 
 /// Sorted once a frame; keeps its memory.
 class StripIndex {

@@ -27,11 +27,6 @@ std::pair<double, double> tangents(double centre, double depth, double cc, doubl
 
 }  // namespace
 
-bool ImageBounds::may_show_on(const ImagePlane& image) const {
-    return farthest > kNearDepth && x_to >= image.left && x_from <= image.x(image.width) && z_from <= image.top &&
-           z_to >= image.z(image.height);
-}
-
 ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene) {
     ImageBounds bounds;
     if (solid.ellipsoid && !(solid.c < 0.0)) {

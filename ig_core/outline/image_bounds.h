@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "ig_core/scene/solid.h"
-#include "ig_core/view.h"
 
 namespace quadrig {
 
@@ -15,8 +14,8 @@ struct ImageBounds {
     double z_from = -std::numeric_limits<double>::infinity(), z_to = std::numeric_limits<double>::infinity();
     double nearest = -std::numeric_limits<double>::infinity(), farthest = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }
-    [[nodiscard]] bool may_show_on(const ImagePlane& image) const;
+    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }    ///< all of it
+    [[nodiscard]] bool behind() const { return !(farthest > kNearDepth); }  ///< all of it: nothing is seen
 };
 
 /// An ellipsoid is bounded by its own extent, everything else by its bounding sphere; errs on the side of more.

@@ -25,6 +25,29 @@ TEST_CASE("a scene of 10,000 objects shows what the reference shows") {
     render(generator, look({0, -200, 150}, {{2}, {-8}, {0}}, 160, 120, 70));
 }
 
+TEST_CASE("objects hidden behind others change no pixel, whatever they are") {
+    CAPTURE(seed());
+    Randomness random(2);
+    Scene scene;
+    scene.ground = Ground{};
+    scene.objects.push_back(ball({0, 100, 0}, 60));
+    Scene crowded = scene;
+    for (int i = 0; i < 500; ++i) {
+        // Behind the ball, as seen from anywhere at 5 m about the origin.
+        const double y = random.between(200, 900), reach = 0.4 * y;
+        crowded.objects.push_back(random_object(random, i % 3 == 0 ? Kind::hill : Kind::ellipsoid,
+                                                {random.between(-reach, reach), y, random.between(-reach, reach)},
+                                                random.log_between(1, 20), true, random.below(4)));
+    }
+    for (const int lines : {0, 2}) {
+        const View view = look({1, -2, 0.5}, {{2}, {1}, {3}}, 160, 120, 100);
+        Quality quality;
+        quality.sub_scan_lines = lines;
+        ImageGenerator alone(scene, 1), among(crowded, 2);
+        CHECK(render(alone, view, {}, quality) == render(among, view, {}, quality));
+    }
+}
+
 TEST_CASE("hundreds of layers on a line of sight are drawn in order") {
     // Shells of decreasing opacity about one another would take a deck of cards: thin boxes, one behind the other, all
     // half open.

@@ -57,7 +57,7 @@ Count compare(const Case& given, int trial) {
     std::array<Cut, kMaxCuts> cuts;
     for (int r = 0; r < image.height; ++r) {
         const double z = image.z(r + 0.5);
-        const bool on_row = bounds.may_show_on(image) && z >= bounds.z_from && z <= bounds.z_to;
+        const bool on_row = !bounds.behind() && z >= bounds.z_from && z <= bounds.z_to;
         const int cut_count = on_row ? cuts_on_row(outline, z, cuts.data()) : 0;
         for (int c = 0; c < image.width; ++c) {
             const double x = image.x(c + 0.5);

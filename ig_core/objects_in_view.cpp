@@ -1,0 +1,88 @@
+#include "ig_core/objects_in_view.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <functional>
+#include <limits>
+#include <thread>
+
+namespace quadrig {
+namespace {
+
+constexpr int kSelectBlock = 512;
+
+}  // namespace
+
+void ObjectsInView::select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres, const View& view,
+                           const Quality& quality, Workers& workers) {
+    const ImagePlane& image = view.image;
+    solids_ = solids;
+    may_be_seen_.resize(solids.size());
+    bounds_.resize(solids.size());
+    const auto walls = walls_of(view);
+    const auto task = [&](int block, int) {
+        const std::size_t begin = static_cast<std::size_t>(block) * kSelectBlock;
+        for (std::size_t i = begin; i < std::min(solids.size(), begin + kSelectBlock); ++i) {
+            may_be_seen_[i] = spheres[i].reaches_into(walls);
+            if (may_be_seen_[i] == 0) continue;
+            bounds_[i] = image_bounds(solids[i], view.eye, view.eye_from_scene);
+            may_be_seen_[i] = may_show_on(image, bounds_[i]);
+        }
+    };
+    workers.run(static_cast<int>((solids.size() + kSelectBlock - 1) / kSelectBlock), std::ref(task));
+    selected_.clear();
+    for (std::uint32_t i = 0; i < may_be_seen_.size(); ++i)
+        if (may_be_seen_[i] != 0) selected_.push_back(i);
+    sort_by_depth();
+    on_strips_.sort(strips_of(image), selected_.size(), [&](std::size_t place) {
+        const ImageBounds& b = bounds(static_cast<std::uint32_t>(place));
+        return strips_between(image, b.z_from, b.z_to);
+    });
+
+    if (outlines_.size() < selected_.size()) outlines_.resize(selected_.size());
+    states_.assign(selected_.size(), OutlineState::none);
+    eye_ = view.eye;
+    eye_from_scene_ = view.eye_from_scene;
+    const int lines = quality.lines_per_row();
+    rows_ = {image.top, image.row_step / lines, image.height * lines};
+    set_up_ = quality.set_up;
+    least_height_ = quality.smallest_feature * image.row_step;
+}
+
+void ObjectsInView::sort_by_depth() {
+    // Roughly is enough, and counting by the leading bits of a float takes a tenth of a sort's time.
+    const auto bin_of = [&](std::uint32_t object) {
+        const auto nearest = static_cast<float>(std::max(bounds_[object].nearest, 0.0));
+        return std::bit_cast<std::uint32_t>(nearest) >> 18;  // five bits of mantissa
+    };
+    constexpr auto kLastBin = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 18;
+    depth_bins_.assign(kLastBin + 2, 0);
+    for (const std::uint32_t object : selected_) ++depth_bins_[bin_of(object) + 1];
+    for (std::size_t bin = 1; bin < depth_bins_.size(); ++bin) depth_bins_[bin] += depth_bins_[bin - 1];
+    front_to_back_.resize(selected_.size());
+    for (const std::uint32_t object : selected_) front_to_back_[depth_bins_[bin_of(object)]++] = object;
+}
+
+const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseconds& time) {
+    Outline& outline = outlines_[place];
+    const std::atomic_ref state(states_[place]);
+    OutlineState seen = OutlineState::none;
+    if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::uint32_t index = object(place);
+        make_outline(solids_[index], index, eye_, eye_from_scene_, rows_, outline, set_up_);
+        if (outline.zeta_to - outline.zeta_from < least_height_) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
+        state.store(OutlineState::made, std::memory_order_release);
+        time += std::chrono::steady_clock::now() - start;
+        return outline;
+    }
+    // Another worker is at it, for some microseconds: the frame is not finished before it is, either.
+    while (seen != OutlineState::made) {
+        std::this_thread::yield();
+        seen = state.load(std::memory_order_acquire);
+    }
+    return outline;
+}
+
+}  // namespace quadrig

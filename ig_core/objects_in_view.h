@@ -1,0 +1,54 @@
+/// The objects of one frame: which may be in view, from front to back, on which strips, and the outlines of those that
+/// turn out to be seen.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ig_core/outline/image_bounds.h"
+#include "ig_core/outline/outline.h"
+#include "ig_core/select.h"
+#include "ig_core/strip_index.h"
+#include "ig_core/workers.h"
+
+namespace quadrig {
+
+class ObjectsInView {
+  public:
+    /// Begins a frame: selects among the solids by their spheres, then by their own bounds. The solids have to stay as
+    /// they are until the next frame begins.
+    void select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres, const View& view,
+                const Quality& quality, Workers& workers);
+
+    /// Places, front to back, of the objects that may show on a strip.
+    [[nodiscard]] std::span<const std::uint32_t> on(int strip) const { return on_strips_.on(strip); }
+    [[nodiscard]] std::uint32_t object(std::uint32_t place) const { return front_to_back_[place]; }
+    [[nodiscard]] const ImageBounds& bounds(std::uint32_t place) const { return bounds_[front_to_back_[place]]; }
+
+    /// The outline of the object at a place. Whichever worker asks first makes it, and adds to `time` how long that
+    /// took.
+    const Outline& outline(std::uint32_t place, std::chrono::nanoseconds& time);
+
+  private:
+    void sort_by_depth();
+
+    std::span<const Solid> solids_;
+    std::vector<std::uint8_t> may_be_seen_;  // by object
+    std::vector<ImageBounds> bounds_;        // of the objects that may be seen
+    std::vector<std::uint32_t> selected_, front_to_back_, depth_bins_;
+    StripIndex on_strips_;
+
+    enum class OutlineState : std::uint8_t { none, begun, made };
+    // One for each place; outlines only ever grow in number, to keep their memory.
+    std::vector<OutlineState> states_;
+    std::vector<Outline> outlines_;
+    ScenePoint eye_;
+    glm::dmat3 eye_from_scene_{1.0};
+    RowGrid rows_;
+    SetUp set_up_ = SetUp::anchored;
+    double least_height_ = 0.0;  // image plane; what is lower is left out
+};
+
+}  // namespace quadrig

@@ -141,7 +141,7 @@ void accuracy(const AccuracyOptions& options) {
     }
 }
 
-constexpr const char* kNotes =
+constexpr const char* kAccuracyNotes =
     "Errors are against the exact renderer: another object or surface at a pixel's centre (true ties apart), relative\n"
     "depth where they agree, and the picture against one supersampled until it does not change: PSNR in linear light,\n"
     "steps of 255 in sRGB. Times are medians of runs in which all settings take turns; cost is the median of the\n"
@@ -167,7 +167,7 @@ void add_accuracy(CLI::App& program, Action& action) {
     command.add_option("--plot", options->plot, "Plot frame time against PSNR")->option_text("FILE.svg");
     command.add_option("--ladder", options->ladder, "Make a quality ladder of the settings worth having")
         ->option_text("LADDER.toml");
-    command.footer(kNotes);
+    command.footer(kAccuracyNotes);
     command.callback([options, &action] { action = [options] { accuracy(*options); }; });
 }
 

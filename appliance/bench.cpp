@@ -55,7 +55,7 @@ void bench(const BenchOptions& options) {
     finish_report(report, record, painter, outlets, options.report);
 }
 
-constexpr const char* kNotes =
+constexpr const char* kBenchNotes =
     "CAMERAS.json is an array of eyes; frame k is seen from the k-th, and after the last from the first again:\n"
     "  [{\"eye\": [0, 0, 8], \"attitude\": [10, 0, 0], \"fov\": 60}, ...]\n"
     "--rate only says how far textures drift from frame to frame; frames follow each other as fast as they can.\n\n"
@@ -73,7 +73,7 @@ void add_bench(CLI::App& program, Action& action) {
         ->check(CLI::PositiveNumber)
         ->option_text("N");
     add_picture_options(command, *options);
-    command.footer(kNotes);
+    command.footer(kBenchNotes);
     command.callback([options, &action] { action = [options] { bench(*options); }; });
 }
 

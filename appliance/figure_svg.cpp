@@ -36,7 +36,7 @@ constexpr std::array<MarkStyle, 5> kMarks{
      {"triplet", "triplet point", "triplet points",
       "M0-7 1.8-2.2 6.7-2.2 2.9.9 4.1 5.7 0 3-4.1 5.7-2.9.9-6.7-2.2-1.8-2.2z"}}};
 
-constexpr const char* kStyle = R"(<style>
+constexpr const char* kFigureStyle = R"(<style>
 text{font-family:Helvetica,Arial,sans-serif;font-size:14px;fill:#1f2933}
 .title{font-size:18px;font-weight:bold}.small{fill:#52606d}
 .frame{fill:none;stroke:#9aa5b1}.paper{fill:#fff}
@@ -234,7 +234,7 @@ std::string figure_svg(const std::vector<FigureRow>& rows, const config::ImageSi
     out.precision(2);
     out << "<svg xmlns='http://www.w3.org/2000/svg' width='" << width << "' height='" << height << "' viewBox='0 0 "
         << width << ' ' << height << "'>\n"
-        << kStyle << "<rect class='paper' width='" << width << "' height='" << height << "'/>\n";
+        << kFigureStyle << "<rect class='paper' width='" << width << "' height='" << height << "'/>\n";
     double top = kMargin;
     for (const FigureRow& row : rows) {
         out << "<g transform='translate(" << kMargin << ' ' << top << ")'>\n";

@@ -61,7 +61,7 @@ void gallery(const GalleryOptions& options) {
     display::write_png(options.output / "contact_sheet.png", sheet.image());
 }
 
-constexpr const char* kExamples =
+constexpr const char* kGalleryExamples =
     "A directory of scenes NAME.toml, each with a camera path NAME.json whose first camera is taken. Without --scenes "
     "it\n"
     "is the gallery that travels along: the figures of Gardner 1984, and more.\n\n"
@@ -83,7 +83,7 @@ void add_gallery(CLI::App& program, Action& action) {
     command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
         ->check(CLI::Range(1, config::kMostThreads))
         ->option_text("N");
-    command.footer(kExamples);
+    command.footer(kGalleryExamples);
     command.callback([options, &action] { action = [options] { gallery(*options); }; });
 }
 

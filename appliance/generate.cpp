@@ -28,7 +28,7 @@ void generate(const GenerateOptions& options) {
     file.commit();
 }
 
-constexpr const char* kExamples =
+constexpr const char* kGenerateExamples =
     "The same file gives the same objects, to the last bit, on every machine. What is written is a scene file itself:\n"
     "every object, and every texture that the scene uses.\n\n"
     "Examples:\n"
@@ -43,7 +43,7 @@ void add_generate(CLI::App& program, Action& action) {
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
     command.add_option("-o,--output", options->output, "Write it here (default: to standard output)")
         ->option_text("FILE.toml");
-    command.footer(kExamples);
+    command.footer(kGenerateExamples);
     command.callback([options, &action] { action = [options] { generate(*options); }; });
 }
 

@@ -77,7 +77,7 @@ void monitor(const MonitorOptions& options) {
     if (monitor.oddities() != 0) throw std::runtime_error("the host does not conform");
 }
 
-constexpr const char* kNotes =
+constexpr const char* kMonitorNotes =
     "Once a second: the link's rates, and a line for each packet with the last value of every field; values out of\n"
     "range are marked (!), and what is refused is told with its likely cause. Hosts are answered as by 'run'. With\n"
     "--strict: a line for each oddity (refused, lost, doubled, out of order or of range, gaps over 50 ms, restarts) "
@@ -97,7 +97,7 @@ void add_monitor(CLI::App& program, Action& action) {
         ->required();
     add_option(command, "--seconds", options->duration, read_duration, "Stop after S seconds", "S");
     command.add_flag("--strict", options->strict, "Report each oddity; exit status 1 where there was one");
-    command.footer(kNotes);
+    command.footer(kMonitorNotes);
     command.callback([options, &action] { action = [options] { monitor(*options); }; });
 }
 

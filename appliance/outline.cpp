@@ -115,7 +115,7 @@ void outline(const OutlineOptions& options) {
     file.commit();
 }
 
-constexpr const char* kExamples =
+constexpr const char* kOutlineExamples =
     "Three panels: all curves and lines that can bound the object's picture; the segments of them that are seen,\n"
     "with their key points and the z-bands between; and the shaded object (Gardner 1984, Figure 5). Without --eye\n"
     "each object is looked at from where it fills its panels, along --attitude.\n\n"
@@ -143,7 +143,7 @@ void add_outline(CLI::App& program, Action& action) {
     command.add_option("-o,--output", options->figure, "Write the figure (required)")
         ->required()
         ->option_text("FIGURE.svg");
-    command.footer(kExamples);
+    command.footer(kOutlineExamples);
     command.callback([options, &action] { action = [options] { outline(*options); }; });
 }
 

@@ -27,7 +27,7 @@ void patterns(const PatternsOptions& options) {
     display::write_png(options.sheet, sheet.image());
 }
 
-constexpr const char* kExamples =
+constexpr const char* kPatternsExamples =
     "Scenes name a pattern like a texture of their own: texture = \"foliage\". The sheet has a row for each, in the "
     "order\n"
     "in which the names are printed: on a plane, a hill and an ellipsoid, each at three distances.\n\n"
@@ -42,7 +42,7 @@ void add_patterns(CLI::App& program, Action& action) {
     command.add_option("-o,--output", options->sheet, "Draw the sheet")->option_text("SHEET.png");
     add_option(command, "--time", options->seconds, read_number, "Scene time, which patterns drift by (default 0)",
                "S");
-    command.footer(kExamples);
+    command.footer(kPatternsExamples);
     command.callback([options, &action] { action = [options] { patterns(*options); }; });
 }
 

@@ -36,7 +36,7 @@ void record(const RecordOptions& options) {
               << link->statistics().frames << " poses among them\n";
 }
 
-constexpr const char* kNotes =
+constexpr const char* kRecordNotes =
     "No pictures: only what hosts send, as the link hears it. The file is pcapng, or for CAN candump's text where its\n"
     "name ends in .log. SIGINT (control-C) and SIGTERM end the recording; whatever ends it, all but the last tenth of "
     "a\n"
@@ -53,7 +53,7 @@ void add_record(CLI::App& program, Action& action) {
     command.add_option("file", options->file, "The recording to write")->required()->option_text("FILE");
     add_option(command, "--link", options->link, read_link, "Where a host is listened to (required)", "URL");
     add_option(command, "--seconds", options->duration, read_duration, "Stop after S seconds", "S");
-    command.footer(kNotes);
+    command.footer(kRecordNotes);
     command.callback([options, &action] { action = [options] { record(*options); }; });
 }
 

@@ -69,7 +69,7 @@ void render(const RenderOptions& options) {
     display::write_png(options.picture, picture.image());
 }
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "Scene axes: X east, Y north, Z up, metres. The eye looks north at heading 0; headings go clockwise,\n"
     "pitch is up, roll is right wing down. The .npy planes are NumPy arrays of rows x columns, row 0 at the top,\n"
     "sampled at pixel centres: int32 object (its index in the scene file, -1 sky, -2 ground), int32 surface (0 the\n"
@@ -116,7 +116,7 @@ void add_render(CLI::App& program, Action& action) {
         ->check(CLI::Range(1, config::kMostThreads))
         ->excludes(reference)
         ->option_text("N");
-    command.footer(kExamples);
+    command.footer(kRenderExamples);
     command.callback([options, &action] { action = [options] { render(*options); }; });
 }
 

@@ -166,7 +166,7 @@ void replay(const ReplayOptions& options) {
     finish_report(report, record, painter, outlets, options.report);
 }
 
-constexpr const char* kNotes =
+constexpr const char* kReplayNotes =
     "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
     "a\n"
     "log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ "
@@ -199,7 +199,7 @@ void add_replay(CLI::App& program, Action& action) {
                                   "As fast as frames can be drawn, and sinks take them: none is left out");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)")
         ->excludes(fast);
-    command.footer(kNotes);
+    command.footer(kReplayNotes);
     command.callback([options, &action] { action = [options] { replay(*options); }; });
 }
 

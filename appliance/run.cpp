@@ -156,7 +156,7 @@ void run(const LiveOptions& options) {
     if (recorder) recorder->finish();
 }
 
-constexpr const char* kNotes =
+constexpr const char* kRunNotes =
     "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
     "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\n"
     "can://INTERFACE and modbus://ADDRESS:PORT; say 0.0.0.0 to be heard beyond this machine. Of several hosts the "
@@ -187,7 +187,7 @@ void add_run(CLI::App& program, Action& action) {
     command.add_option("--record", options->record, "Write what the host sends into a recording (one link only)")
         ->option_text("FILE");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");
-    command.footer(kNotes);
+    command.footer(kRunNotes);
     command.callback([options, &action] { action = [options] { run(*options); }; });
 }
 

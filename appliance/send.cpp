@@ -44,7 +44,7 @@ void send(const SendOptions& options) {
     std::cerr << "quadrig: " << sent << " sent, " << failed << " not\n";
 }
 
-constexpr const char* kNotes =
+constexpr const char* kSendNotes =
     "Whatever the recording's host sent, byte for byte, at its own pace: a host for those who have none. What comes "
     "back\n"
     "is not looked at.\n\n"
@@ -63,7 +63,7 @@ void add_send(CLI::App& program, Action& action) {
         "Where to: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\ncan://INTERFACE or modbus://ADDRESS:PORT (required)",
         "URL");
     add_option(command, "--speed", options->speed, read_number, "Times as fast as it was recorded (default 1)", "X");
-    command.footer(kNotes);
+    command.footer(kSendNotes);
     command.callback([options, &action] { action = [options] { send(*options); }; });
 }
 

@@ -14,7 +14,7 @@ constexpr NumberRule kLightDiameter{"metres in 1e-3..1000", [](double x) { retur
 constexpr NumberRule kBeamWidth{"degrees above 0, at most 360", [](double x) { return x > 0.0 && x <= 360.0; }};
 constexpr NumberRule kRunwayLength{"metres in 100..20000", [](double x) { return x >= 100.0 && x <= 20'000.0; }};
 constexpr NumberRule kRunwayWidth{"metres in 5..200", [](double x) { return x >= 5.0 && x <= 200.0; }};
-constexpr NumberRule kSpacing{"metres in 1..1000", [](double x) { return x >= 1.0 && x <= 1000.0; }};
+constexpr NumberRule kEdgeLightSpacing{"metres in 1..1000", [](double x) { return x >= 1.0 && x <= 1000.0; }};
 constexpr NumberRule kApproach{"metres in 0..3000", [](double x) { return x >= 0.0 && x <= 3000.0; }};
 
 double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
@@ -77,7 +77,7 @@ clusters::Runway read_runway(const TomlSection& section, Textures& textures) {
     if (const auto lights = section.optional_table("lights", {"intensity", "spacing", "approach"})) {
         clusters::RunwayLights& l = runway.lights.emplace();
         l.intensity = lights->number_or("intensity", kIntensity, l.intensity);
-        l.spacing = lights->number_or("spacing", kSpacing, l.spacing);
+        l.spacing = lights->number_or("spacing", kEdgeLightSpacing, l.spacing);
         l.approach = lights->number_or("approach", kApproach, l.approach);
     }
     return runway;

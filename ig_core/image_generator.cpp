@@ -87,7 +87,6 @@ struct ImageGenerator::Impl {
     PlaneSurfaces planes;
     ObjectsInView objects;
     StripIndex polygons_on_strips, lights_on_strips;
-    PlaneDepth marked_plane;
     std::vector<SeenPolygon> polygons;
     std::vector<SeenLight> lights;
 };
@@ -113,11 +112,10 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
 
 void ImageGenerator::Impl::look_at_features(const View& view, double pixel_height) {
     const ImagePlane& image = view.image;
-    planes.ground.reset();
-    if (scene.ground) planes.ground = horizontal_plane(view, 0.0);
+    planes.ground = horizontal_plane(view, 0.0);
+    planes.has_ground = scene.ground.has_value();
     planes.decks.clear();
     for (const CloudDeck& deck : scene.cloud_decks) planes.decks.push_back(horizontal_plane(view, deck.altitude));
-    marked_plane = horizontal_plane(view, 0.0);
     look_at(scene.ground_polygons, view, polygons);
     look_at(scene.lights, view, kLeastLightPixels * pixel_height, lights);
     polygons_on_strips.sort(strips_of(image), polygons.size(), [&](std::size_t i) {
@@ -168,7 +166,7 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
             on_every_row([&](const PixelRow& row, auto& out) { add_light_span(lights[i], row, out); });
         for (const std::uint32_t i : polygons_on_strips.on(strip))
             on_every_row(
-                [&](const PixelRow& row, auto& out) { add_polygon_span(polygons[i], marked_plane, row, out); });
+                [&](const PixelRow& row, auto& out) { add_polygon_span(polygons[i], seen_planes.ground, row, out); });
     }
     on_every_row([&](const PixelRow& row, auto& out) { add_plane_spans(seen_planes, deck_opaque, row, out); });
 }
@@ -281,8 +279,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     const ImagePlane& image = view.image;
     g.move_objects(environment);
     g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, view, quality, g.workers);
-    PlaneSurfaces planes;
-    if (g.scene.ground) planes.ground = horizontal_plane(view, 0.0);
+    const PlaneSurfaces planes{horizontal_plane(view, 0.0), g.scene.ground.has_value(), {}};
     GroundTruth truth;
     truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     g.sweep_rows(view, quality, true, planes, [&](const PixelRow& row, RowWorker& own) {

@@ -33,22 +33,25 @@ void bound_depth(const PixelRow& row, RowSpan& span) {
     span.surface.far_u = std::max(span.surface.far_u, bounds.least);
 }
 
-void add_plane(const Surface& surface, const PixelRow& row, std::vector<RowSpan>& spans) {
+/// The part of a plane that lies in front of the eye and within edges, d' edge >= 0: a half-line of the row, clipped.
+void add_plane(const Surface& surface, std::span<const glm::dvec3> edges, const PixelRow& row,
+               std::vector<RowSpan>& spans) {
     RowSpan& span = spans.emplace_back();
     span.surface = surface;
     clear_ends(span);
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
-        // 1/k > 0: a half-line of the row, from the plane's horizon on.
-        const double at = surface.plane.at + surface.plane.along_z * row.z[i];
-        const double slope = surface.plane.along_x;
-        const double horizon = row.column(-at / slope);
         double from = 0.0, to = row.columns;
-        if (slope > 0.0)
-            from = std::max(from, horizon);
-        else if (slope < 0.0)
-            to = std::min(to, horizon);
-        else if (!(at > 0.0))
-            to = from;
+        const auto keep = [&](double at, double along_x) {
+            const double end = row.column(-at / along_x);
+            if (along_x > 0.0)
+                from = std::max(from, end);
+            else if (along_x < 0.0)
+                to = std::min(to, end);
+            else if (!(at > 0.0))
+                to = from;
+        };
+        keep(surface.plane.at + surface.plane.along_z * row.z[i], surface.plane.along_x);  // 1/k > 0
+        for (const glm::dvec3& edge : edges) keep(edge.y + edge.z * row.z[i], edge.x);
         span.from[i] = from, span.to[i] = std::max(from, to);
     }
     if (fit_columns(row, span))
@@ -181,11 +184,11 @@ void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> 
                      std::vector<RowSpan>& spans) {
     Surface surface;
     surface.near_u = std::numeric_limits<double>::infinity();
-    if (planes.ground) {
+    if (planes.has_ground) {
         surface.kind = Surface::Kind::ground;
         surface.priority = kGroundPriority;
-        surface.plane = *planes.ground;
-        add_plane(surface, row, spans);
+        surface.plane = planes.ground;
+        add_plane(surface, {}, row, spans);
     }
     for (std::size_t i = 0; i < planes.decks.size(); ++i) {
         surface.kind = Surface::Kind::deck;
@@ -193,7 +196,7 @@ void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> 
         surface.index = static_cast<std::uint32_t>(i);
         surface.priority = kDeckPriority + static_cast<std::uint32_t>(i);
         surface.plane = planes.decks[i];
-        add_plane(surface, row, spans);
+        add_plane(surface, {}, row, spans);
     }
     RowSpan& sky = spans.emplace_back();
     sky.surface = {};
@@ -206,33 +209,13 @@ void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> 
 
 void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, const PixelRow& row,
                       std::vector<RowSpan>& spans) {
-    RowSpan& span = spans.emplace_back();
-    span.surface.kind = Surface::Kind::marking;
-    span.surface.index = polygon.polygon;
-    span.surface.priority = kMarkingPriority - polygon.polygon;
-    span.surface.plane = ground;
-    span.surface.near_u = std::numeric_limits<double>::infinity();
-    clear_ends(span);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
-        double from = 0.0, to = row.columns;
-        const auto keep = [&](double at, double along_x) {
-            const double end = row.column(-at / along_x);
-            if (along_x > 0.0)
-                from = std::max(from, end);
-            else if (along_x < 0.0)
-                to = std::min(to, end);
-            else if (!(at > 0.0))
-                to = from;
-        };
-        keep(ground.at + ground.along_z * row.z[i], ground.along_x);
-        for (std::size_t e = 0; e < polygon.edge_count; ++e)
-            keep(polygon.edges[e].y + polygon.edges[e].z * row.z[i], polygon.edges[e].x);
-        span.from[i] = from, span.to[i] = std::max(from, to);
-    }
-    if (fit_columns(row, span))
-        bound_depth(row, span);
-    else
-        spans.pop_back();
+    Surface surface;
+    surface.kind = Surface::Kind::marking;
+    surface.index = polygon.polygon;
+    surface.priority = kMarkingPriority - polygon.polygon;
+    surface.plane = ground;
+    surface.near_u = std::numeric_limits<double>::infinity();
+    add_plane(surface, std::span(polygon.edges).first(polygon.edge_count), row, spans);
 }
 
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,7 +11,8 @@ namespace quadrig {
 
 /// Planes that are not objects, as the frame's eye sees them.
 struct PlaneSurfaces {
-    std::optional<PlaneDepth> ground;
+    PlaneDepth ground;        ///< Z = 0, which markings are painted on
+    bool has_ground = false;  ///< whether it is drawn itself
     std::vector<PlaneDepth> decks;
 };
 

@@ -173,7 +173,10 @@ constexpr const char* kNotes =
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
     "  links = [\"fdm://127.0.0.1:5500\"]\n"
-    "  size  = [1280, 720]\n\n"
+    "  size  = [1280, 720]\n"
+    "  [[entity]]                        # another aircraft, flown by a host of its own\n"
+    "  model = \"x-29\"\n"
+    "  link  = \"fdm://127.0.0.1:5501\"\n\n"
     "Examples:\n"
     "  quadrig run --scene config/scenes/takeoff.toml --link fdm://127.0.0.1:5500 --sink y4m:- | mpv -\n"
     "  quadrig run --scene config/scenes/turn.toml --link cigi://127.0.0.1:8004 --seconds 60 --report run.json";

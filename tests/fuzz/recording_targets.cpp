@@ -14,6 +14,30 @@ namespace {
 
 std::string_view text_of(Input input) { return {reinterpret_cast<const char*>(input.data()), input.size()}; }
 
+/// An input under a name of our own choice, in a directory that is gone at the program's end.
+class NamedInput {
+  public:
+    explicit NamedInput(const char* name) : directory_(std::filesystem::temp_directory_path() / "quadrig-fuzz-XXXXXX") {
+        if (mkdtemp(directory_.data()) == nullptr) throw std::system_error(errno, std::generic_category(), directory_);
+        std::filesystem::create_symlink(file_.holding({}), std::filesystem::path(directory_) / name);
+    }
+    ~NamedInput() {
+        std::error_code ignored;
+        std::filesystem::remove_all(directory_, ignored);
+    }
+    NamedInput(const NamedInput&) = delete;
+    NamedInput& operator=(const NamedInput&) = delete;
+
+    [[nodiscard]] std::filesystem::path directory_holding(Input input) const {
+        file_.holding(input);
+        return directory_;
+    }
+
+  private:
+    InputFile file_;
+    std::string directory_;
+};
+
 }  // namespace
 
 void read_candump(Input input) {
@@ -48,17 +72,11 @@ void read_capture(Input input) {
 }
 
 void read_recorded_frames(Input input) {
-    static const InputFile file;
     // The reader looks for NAME.frames beside NAME.
-    static const std::filesystem::path link = [] {
-        std::string directory = (std::filesystem::temp_directory_path() / "quadrig-fuzz-XXXXXX").string();
-        if (mkdtemp(directory.data()) == nullptr) throw std::system_error(errno, std::generic_category(), directory);
-        std::filesystem::create_symlink(file.holding({}), directory + "/input.frames");
-        return std::filesystem::path(directory) / "input";
-    }();
-    file.holding(input);
+    static const NamedInput file("input.frames");
+    const auto recording = file.directory_holding(input) / "input";
     try {
-        const auto frames = host::read_recorded_frames(link);
+        const auto frames = host::read_recorded_frames(recording);
         law(frames.has_value(), "a file that is there is read");
         law(std::ranges::is_sorted(frames->frames, {}, &host::RecordedFrame::number), "frames' numbers do not go back");
         law(std::ranges::is_sorted(frames->frames, {}, &host::RecordedFrame::heard), "nothing is unheard");

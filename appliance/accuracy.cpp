@@ -10,6 +10,7 @@
 
 #include "appliance/accuracy_report.h"
 #include "appliance/accuracy_settings.h"
+#include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
 #include "appliance/run_options.h"
@@ -90,9 +91,7 @@ std::vector<SettingResult> measure(const AccuracyOptions& options) {
     for (const Quality& quality : accuracy_settings()) results.push_back({quality, {}, 0, 0, {}, {}, false});
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         std::cerr << "camera " << i + 1 << " of " << cameras.size() << ": the exact picture ..." << std::flush;
-        const Truth truth = truth_at(
-            scene, {cameras[i].eye, eye_from_scene_rotation(cameras[i].attitude),
-                    ImagePlane::symmetric(options.size.width, options.size.height, cameras[i].horizontal_fov)});
+        const Truth truth = truth_at(scene, view_from(cameras[i], options.size));
         std::cerr << " " << results.size() << " settings ..." << std::flush;
         for (SettingResult& result : results) measure_errors(generator, truth, result);
         measure_times(generator, truth.view, options.runs, i, results);
@@ -100,12 +99,6 @@ std::vector<SettingResult> measure(const AccuracyOptions& options) {
     }
     sum_up(results);
     return results;
-}
-
-void write(const std::filesystem::path& path, const std::string& text) {
-    display::AtomicFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
 }
 
 /// How the figures were got, in one line.
@@ -127,17 +120,18 @@ void accuracy(const AccuracyOptions& options) {
                                     {"conditions", conditions(options)},
                                     {"scene", options.scene.string()},
                                     {"settings", accuracy_json(results)}};
-        write(options.json, json.dump(2) + "\n");
+        display::write_whole(options.json, json.dump(2) + "\n");
     }
     if (!options.plot.empty())
-        write(options.plot, accuracy_plot(results, options.scene.stem().string() + ": speed against error"));
+        display::write_whole(options.plot,
+                             accuracy_plot(results, options.scene.stem().string() + ": speed against error"));
     if (!options.ladder.empty()) {
         std::ostringstream text;
         text << "# The quality ladder, from the fastest step to the best, as `quadrig accuracy` measured it:\n# "
              << conditions(options)
              << ".\n# `cost` is frame time as a share of the default's, `psnr` in dB, linear light.\n";
         config::write_quality_ladder(ladder_from(results), text);
-        write(options.ladder, text.str());
+        display::write_whole(options.ladder, text.str());
     }
 }
 

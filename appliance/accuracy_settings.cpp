@@ -3,32 +3,20 @@
 #include <algorithm>
 
 namespace quadrig::appliance {
-namespace {
-
-/// The default with one member changed.
-template <class Member, class Value>
-Quality with(Member Quality::*member, Value value) {
-    Quality quality;
-    quality.*member = value;
-    return quality;
-}
-
-}  // namespace
 
 std::vector<Quality> accuracy_settings() {
     std::vector<Quality> settings{{}};
     const auto add = [&](const Quality& quality) {
         if (std::find(settings.begin(), settings.end(), quality) == settings.end()) settings.push_back(quality);
     };
-    for (const int lines : {0, 1, 4, 8}) add(with(&Quality::sub_scan_lines, lines));
-    for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) add(with(&Quality::set_up, set_up));
-    add(with(&Quality::distance, DistanceRule::interpolated));
-    for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library})
-        add(with(&Quality::sine, sine));
-    for (const int terms : {1, 2}) add(with(&Quality::terms_left_out, terms));
-    add(with(&Quality::smooth_stretches, false));
-    for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four}) add(with(&Quality::shading, rate));
-    for (const double pixels : {1.0, 3.0}) add(with(&Quality::smallest_feature, pixels));
+    for (const int lines : {0, 1, 4, 8}) add({.sub_scan_lines = lines});
+    for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) add({.set_up = set_up});
+    add({.distance = DistanceRule::interpolated});
+    for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library}) add({.sine = sine});
+    for (const int terms : {1, 2}) add({.terms_left_out = terms});
+    add({.smooth_stretches = false});
+    for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four}) add({.shading = rate});
+    for (const double pixels : {1.0, 3.0}) add({.smallest_feature = pixels});
 
     for (const int lines : {0, 1, 2, 4, 8}) {
         for (const ShadingRate rate : {ShadingRate::half, ShadingRate::one, ShadingRate::four}) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/frame_run.h"
 #include "appliance/outlets.h"
@@ -23,9 +24,7 @@ struct BenchOptions : RunOptions {
 
 std::vector<View> views_along(const std::vector<config::Camera>& cameras, const config::ImageSize& size) {
     std::vector<View> views;
-    for (const config::Camera& camera : cameras)
-        views.push_back({camera.eye, eye_from_scene_rotation(camera.attitude),
-                         ImagePlane::symmetric(size.width, size.height, camera.horizontal_fov)});
+    for (const config::Camera& camera : cameras) views.push_back(view_from(camera, size));
     return views;
 }
 

@@ -10,6 +10,7 @@
 
 #include "appliance/commands.h"
 #include "appliance/playback.h"
+#include "appliance/run_options.h"
 #include "config/appliance_file.h"
 #include "config/camera_path.h"
 #include "config/scene_file.h"
@@ -45,12 +46,18 @@ void check_appliance(const Path& file) {
     if (settings.scene) std::cout << "scene:       " << settings.scene->string() << '\n';
     for (const host::LinkUrl& link : settings.links) std::cout << "link:        " << link.text << '\n';
     for (const std::string& sink : settings.sinks) std::cout << "sink:        " << sink << '\n';
+    for (const auto& entity : settings.entities) {
+        std::cout << "entity:      " << entity.model;
+        if (const int* type = std::get_if<int>(&entity.placed_by)) std::cout << ", the host's of type " << *type;
+        if (const auto* link = std::get_if<host::LinkUrl>(&entity.placed_by)) std::cout << ", driven by " << link->text;
+        std::cout << '\n';
+    }
     if (settings.size) std::cout << "size:        " << settings.size->width << 'x' << settings.size->height << '\n';
     if (settings.fov) std::cout << "fov:         " << settings.fov->value << " degrees\n";
     if (settings.rate) std::cout << "rate:        " << settings.rate->hertz() << " Hz\n";
     if (settings.threads) std::cout << "threads:     " << *settings.threads << '\n';
     if (settings.quality) std::cout << "quality:     " << *settings.quality << '\n';
-    if (settings.scene) config::read_scene(*settings.scene);
+    if (settings.scene) scene_with_entities(settings);
 }
 
 void print_pose(const char* title, const std::optional<host::PoseSample>& pose) {

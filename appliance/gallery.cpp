@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
 #include "appliance/run_options.h"
@@ -38,11 +39,9 @@ std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& direct
 display::Picture picture_of(const std::filesystem::path& scene, const GalleryOptions& options) {
     const config::Camera camera =
         config::read_camera_path(std::filesystem::path(scene).replace_extension(".json")).front();
-    const View view{camera.eye, eye_from_scene_rotation(camera.attitude),
-                    ImagePlane::symmetric(options.size.width, options.size.height, camera.horizontal_fov)};
     display::Picture picture(options.size.width, options.size.height);
     ImageGenerator(config::read_scene(scene), options.threads)
-        .render(view, {}, options.quality.quality, picture.image());
+        .render(view_from(camera, options.size), {}, options.quality.quality, picture.image());
     return picture;
 }
 

@@ -23,9 +23,7 @@ void generate(const GenerateOptions& options) {
         std::cout << toml;
         return;
     }
-    display::AtomicFile file(options.output);
-    file.write(toml.data(), toml.size());
-    file.commit();
+    display::write_whole(options.output, toml);
 }
 
 constexpr const char* kGenerateExamples =

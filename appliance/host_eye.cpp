@@ -18,7 +18,8 @@ std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time 
     return scheduler::host_view(*body, state.mount, plane);
 }
 
-Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed) {
+Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed,
+                                 std::span<const PlacedModel> others) {
     Environment environment;
     environment.seconds = std::chrono::duration<double>(elapsed).count();
     environment.visibility = state.visibility;
@@ -26,7 +27,8 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
         const host::SunPosition sun = host::sun_position(*state.utc, surroundings_.origin);
         environment.sun = Sun{sun.azimuth, sun.elevation, surroundings_.sun.ambient};
     }
-    std::size_t count = 0;
+    std::ranges::copy(others, bodies_.begin());
+    std::size_t count = others.size();
     const std::vector<int>& types = surroundings_.entity_types;
     for (std::size_t i = 0; i < state.entity_count; ++i) {
         const host::Entity& entity = state.entities[i];

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "config/appliance_file.h"
 #include "frame_scheduler/frame_clock.h"
 #include "frame_scheduler/motion.h"
 #include "host_link/host_state.h"
@@ -30,15 +32,16 @@ class HostEye {
     /// The view for a frame due at `frame_time`, by the clock of the state's arrivals. To be called once a frame with
     /// the state latched for it. Nothing before the host's first pose.
     std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
-    /// `elapsed`: the scene's time.
+    /// `elapsed`: the scene's time. `others`: models that this host does not place, config::kMostEntityModels at most.
     /// What the environment refers to is good until the next call.
-    [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed);
+    [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed,
+                                          std::span<const PlacedModel> others = {});
     /// When the newest pose came in, where no frame before has asked for it.
     std::optional<scheduler::Time> fresh_arrival(const host::HostState& state);
 
   private:
     Surroundings surroundings_;
-    std::array<PlacedModel, host::kMostShownEntities> bodies_;
+    std::array<PlacedModel, config::kMostEntityModels + host::kMostShownEntities> bodies_;
     scheduler::MotionSmoother smoother_;
     std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
 };

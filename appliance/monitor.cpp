@@ -25,8 +25,6 @@ struct MonitorOptions {
 };
 
 void monitor(const MonitorOptions& options) {
-    if (!options.link->live)
-        throw WrongUse("link '" + options.link->text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
     watch_stop_signals();
     std::mutex mutex;
     host::Monitor monitor(*options.link);
@@ -92,7 +90,7 @@ constexpr const char* kMonitorNotes =
 void add_monitor(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("monitor", "Show what comes over a link, and what is odd about it");
     const auto options = std::make_shared<MonitorOptions>();
-    add_option(command, "url", options->link, read_link,
+    add_option(command, "url", options->link, read_live_link,
                "cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\ncan://INTERFACE or modbus://ADDRESS:PORT", "URL")
         ->required();
     add_option(command, "--seconds", options->duration, read_duration, "Stop after S seconds", "S");

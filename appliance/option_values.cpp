@@ -91,12 +91,18 @@ host::LinkUrl read_link(const std::string& text) {
     }
 }
 
+host::LinkUrl read_live_link(const std::string& text) {
+    host::LinkUrl url = read_link(text);
+    if (!url.live) throw CLI::ValidationError("link '" + text + "'", "needs ADDRESS:PORT, or on CAN an interface");
+    return url;
+}
+
 config::ApplianceSettings::EntityModel read_entity(const std::string& text) {
     const std::size_t equals = std::min(text.find('='), text.size());
     const auto type = parse<int>(std::string_view(text).substr(0, equals));
     if (!type || *type < 0 || *type > 65535 || equals + 1 >= text.size())
         refuse(text, "TYPE=MODEL, such as 12=x-29, the type in 0..65535");
-    return {*type, text.substr(equals + 1)};
+    return {text.substr(equals + 1), *type};
 }
 
 std::string read_sink(const std::string& text) {

@@ -28,6 +28,8 @@ double read_number(const std::string& text);
 /// A step of the shipped quality ladder.
 config::QualityStep read_quality(const std::string& text);
 host::LinkUrl read_link(const std::string& text);
+/// One that says where a host is: with ADDRESS:PORT, or on CAN an interface.
+host::LinkUrl read_live_link(const std::string& text);
 /// "12=x-29": a host's entity type and the model it is drawn as.
 config::ApplianceSettings::EntityModel read_entity(const std::string& text);
 std::string read_sink(const std::string& text);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/figure_svg.h"
 #include "appliance/option_values.h"
@@ -49,9 +50,7 @@ glm::dvec3 attitude_of(const OutlineOptions& options) {
 
 View view_of(const OutlineOptions& options, const Object& object, const Solid& solid) {
     const glm::dvec3 angles = attitude_of(options);
-    View view{{},
-              eye_from_scene_rotation({{angles.x}, {angles.y}, {angles.z}}),
-              ImagePlane::symmetric(options.size.width, options.size.height, options.fov)};
+    View view = view_from({{}, {{angles.x}, {angles.y}, {angles.z}}, options.fov}, options.size);
     const auto eye = options.eye ? ScenePoint{*options.eye}
                                  : eye_that_frames(solid, view.eye_from_scene, kFilled * view.image.x(view.image.width),
                                                    kFilled * view.image.top);
@@ -109,10 +108,7 @@ void outline(const OutlineOptions& options) {
     for (const std::string& name : options.objects) objects.push_back(&object_named(scene, name, options.scene));
     std::vector<FigureRow> rows;
     for (const Object* object : objects) rows.push_back(row_of(scene, *object, options));
-    const std::string svg = figure_svg(rows, options.size);
-    display::AtomicFile file(options.figure);
-    file.write(svg.data(), svg.size());
-    file.commit();
+    display::write_whole(options.figure, figure_svg(rows, options.size));
 }
 
 constexpr const char* kOutlineExamples =

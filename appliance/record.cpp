@@ -20,8 +20,6 @@ struct RecordOptions {
 
 void record(const RecordOptions& options) {
     if (!options.link) throw WrongUse("--link is missing: what is there to hear?");
-    if (!options.link->live)
-        throw WrongUse("link '" + options.link->text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
     watch_stop_signals();
     const auto link = open_link(*options.link);
     host::Recorder recorder(*link, {options.file, std::nullopt});
@@ -51,7 +49,7 @@ void add_record(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("record", "Write what a host sends into a recording");
     const auto options = std::make_shared<RecordOptions>();
     command.add_option("file", options->file, "The recording to write")->required()->option_text("FILE");
-    add_option(command, "--link", options->link, read_link, "Where a host is listened to (required)", "URL");
+    add_option(command, "--link", options->link, read_live_link, "Where a host is listened to (required)", "URL");
     add_option(command, "--seconds", options->duration, read_duration, "Stop after S seconds", "S");
     command.footer(kRecordNotes);
     command.callback([options, &action] { action = [options] { record(*options); }; });

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
 #include "appliance/run_options.h"
@@ -36,9 +37,7 @@ struct RenderOptions {
 
 View view_of(const RenderOptions& options) {
     const Attitude attitude{{options.attitude.x}, {options.attitude.y}, {options.attitude.z}};
-    return {{options.eye},
-            eye_from_scene_rotation(attitude),
-            ImagePlane::symmetric(options.size.width, options.size.height, options.fov)};
+    return view_from({{options.eye}, attitude, options.fov}, options.size);
 }
 
 void write_ground_truth(const RenderOptions& options, const GroundTruth& truth) {

@@ -1,4 +1,5 @@
 /// `quadrig run`: live, driven by hosts over the network.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "appliance/host_eye.h"
 #include "appliance/option_values.h"
 #include "appliance/outlets.h"
+#include "appliance/own_entities.h"
 #include "appliance/painter.h"
 #include "appliance/run_options.h"
 #include "appliance/run_report.h"
@@ -50,31 +52,40 @@ LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
     return latest;
 }
 
-scheduler::FrameHooks hooks_for(LiveHosts& hosts, Painter& painter, Outlets& outlets,
+scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter& painter, Outlets& outlets,
                                 const scheduler::FrameRecord& record, host::Recorder* recorder) {
-    const auto draw = [&hosts, &painter, &record, recorder,
+    const auto draw = [&hosts, &entities, &painter, &record, recorder,
                        standby = standby_view(painter.image_plane())](const scheduler::FrameTick& tick) {
+        const host::FrameStatus status{static_cast<std::uint32_t>(tick.number), tick.started,
+                                       static_cast<std::uint32_t>(record.deadline_misses)};
         for (const auto& host : hosts) {
             host->link->take_newest(host->state);
             if (recorder != nullptr) recorder->frame(tick.number, tick.due, host->link->heard());
-            host->link->frame_begins({static_cast<std::uint32_t>(tick.number), tick.started,
-                                      static_cast<std::uint32_t>(record.deadline_misses)});
+            host->link->frame_begins(status);
             host->view = host->eye->view(host->state, tick.due);
         }
+        const auto others = entities.at(status, tick.due);
         scheduler::DrawnFrame drawn;
         LiveHost* host = driving_host(hosts, tick.started);
         if (!host) {
             Environment environment;
             environment.seconds = std::chrono::duration<double>(tick.elapsed).count();
+            environment.bodies = others;
             drawn.stages = painter.paint(standby, environment, tick.number);
             return drawn;
         }
-        drawn.stages = painter.paint(*host->view, host->eye->environment(host->state, tick.elapsed), tick.number);
+        drawn.stages =
+            painter.paint(*host->view, host->eye->environment(host->state, tick.elapsed, others), tick.number);
         if (const auto arrival = host->eye->fresh_arrival(host->state)) drawn.input_age = tick.started - *arrival;
         return drawn;
     };
     return {stop_requested, draw,
             [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
+}
+
+/// Of the protocols only CIGI has words for them.
+bool asks_questions(const std::unique_ptr<LiveHost>& host) {
+    return host->link->url().protocol == host::Protocol::cigi;
 }
 
 LiveHosts listen(const std::vector<host::LinkUrl>& links) {
@@ -94,9 +105,6 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     if (!settings.scene) throw WrongUse("--scene is missing: what is there to see?");
     if (settings.links.empty())
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
-    for (const host::LinkUrl& url : settings.links)
-        if (!url.live)
-            throw WrongUse("link '" + url.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
     if (!options.record.empty() && settings.links.size() != 1)
         throw WrongUse("--record takes one link: a recording is one host's");
     return settings;
@@ -110,6 +118,7 @@ void run(const LiveOptions& options) {
     std::optional<SceneSurvey> survey;
     std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
+    OwnEntities entities(given.entities);
     Painter painter(scene_with_entities(given), settings);
     const Scene& scene = painter.scene();
 
@@ -122,7 +131,7 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
-    survey.emplace(scene);
+    if (std::any_of(hosts.begin(), hosts.end(), asks_questions)) survey.emplace(scene);
     if (!options.record.empty())
         recorder = std::make_unique<host::Recorder>(
             *hosts.front()->link,
@@ -133,25 +142,23 @@ void run(const LiveOptions& options) {
                                                 scene.sun, entity_types(given)});
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
-        session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
+        if (survey) session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
         host->link->start(session);
     }
+    entities.start(scene.origin);
     painter.warm_up(standby_view(painter.image_plane()));
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
-    run_in_real_time(settings.rate, length, options.fifo, hooks_for(hosts, painter, outlets, record, recorder.get()),
-                     record, report);
+    run_in_real_time(settings.rate, length, options.fifo,
+                     hooks_for(hosts, entities, painter, outlets, record, recorder.get()), record, report);
 
     for (const auto& host : hosts) {
         host->link->stop();
-        nlohmann::ordered_json told = link_report(host->link->url().text, host->link->statistics());
-        if (host->link->port() != 0) told["port"] = host->link->port();
-        told["replies"] = host->link->replies_sent();
-        told["replies_failed"] = host->link->replies_failed();
-        told["replies_held_back"] = host->link->replies_held_back();
+        nlohmann::ordered_json told = live_link_report(*host->link);
         if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
         report.links.push_back(std::move(told));
     }
+    for (auto& told : entities.stop()) report.links.push_back(std::move(told));
     finish_report(report, record, painter, outlets, options.report);
     if (recorder) recorder->finish();
 }
@@ -166,7 +173,10 @@ constexpr const char* kRunNotes =
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
     "  links = [\"fdm://127.0.0.1:5500\"]\n"
-    "  size  = [1280, 720]\n\n"
+    "  size  = [1280, 720]\n"
+    "  [[entity]]                        # another aircraft, flown by a host of its own\n"
+    "  model = \"x-29\"\n"
+    "  link  = \"fdm://127.0.0.1:5501\"\n\n"
     "Examples:\n"
     "  quadrig run --scene config/scenes/takeoff.toml --link fdm://127.0.0.1:5500 --sink y4m:- | mpv -\n"
     "  quadrig run --scene config/scenes/turn.toml --link cigi://127.0.0.1:8004 --seconds 60 --report run.json";
@@ -178,7 +188,7 @@ void add_run(CLI::App& program, Action& action) {
     const auto options = std::make_shared<LiveOptions>();
     command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
         ->option_text("[APPLIANCE.toml]");
-    add_list_option(command, "--link", options->settings.links, read_link,
+    add_list_option(command, "--link", options->settings.links, read_live_link,
                     "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT or can://INTERFACE "
                     "(required; may be\ngiven again)",
                     "URL");

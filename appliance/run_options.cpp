@@ -62,7 +62,10 @@ Scene scene_with_entities(const config::ApplianceSettings& settings) {
 
 std::vector<int> entity_types(const config::ApplianceSettings& settings) {
     std::vector<int> types;
-    for (const auto& entity : settings.entities) types.push_back(entity.type);
+    for (const auto& entity : settings.entities) {
+        const int* type = std::get_if<int>(&entity.placed_by);
+        types.push_back(type != nullptr ? *type : -1);
+    }
     return types;
 }
 

@@ -41,9 +41,9 @@ struct PictureSettings {
 /// Throws WrongUse where the ladder has no such quality.
 PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings);
 
-/// The scene of the settings, with a model for every type of entity.
+/// The scene of the settings, with a model for every entity of theirs.
 Scene scene_with_entities(const config::ApplianceSettings& settings);
-/// Their types, in the order of the scene's models.
+/// The host's types that they stand for, in the order of the scene's models; -1 for one that no host places.
 std::vector<int> entity_types(const config::ApplianceSettings& settings);
 
 /// One thread per core that this process may use.

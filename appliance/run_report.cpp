@@ -59,6 +59,15 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
     return json;
 }
 
+Json live_link_report(const host::LiveLink& link) {
+    Json told = link_report(link.url().text, link.statistics());
+    if (link.port() != 0) told["port"] = link.port();
+    told["replies"] = link.replies_sent();
+    told["replies_failed"] = link.replies_failed();
+    told["replies_held_back"] = link.replies_held_back();
+    return told;
+}
+
 void finish_report(scheduler::FrameReport& report, const scheduler::FrameRecord& record, const Painter& painter,
                    Outlets& outlets, const std::filesystem::path& file) {
     add_record(report, record);
@@ -68,12 +77,7 @@ void finish_report(scheduler::FrameReport& report, const scheduler::FrameRecord&
             report.quality[settings.ladder[step].name] = frames;
     outlets.finish(report);
     std::cerr << summary(report);
-    if (!file.empty()) {
-        const std::string text = json_text(report);
-        display::AtomicFile out(file);
-        out.write(text.data(), text.size());
-        out.commit();
-    }
+    if (!file.empty()) display::write_whole(file, json_text(report));
     for (const scheduler::SinkReport& sink : report.sinks)
         if (!sink.error.empty()) throw std::runtime_error("sink " + sink.url + " failed: " + sink.error);
 }

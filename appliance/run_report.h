@@ -9,6 +9,7 @@
 #include "appliance/painter.h"
 #include "frame_scheduler/frame_report.h"
 #include "host_link/link_statistics.h"
+#include "host_link/live_link.h"
 
 namespace quadrig::appliance {
 
@@ -17,6 +18,8 @@ scheduler::FrameReport report_about(const Painter& painter);
 
 /// A link as reports tell it.
 nlohmann::ordered_json link_report(const std::string& url, const host::LinkStatistics& statistics);
+/// A live one, with its port and replies.
+nlohmann::ordered_json live_link_report(const host::LiveLink& link);
 
 /// Closes the outlets, says the report on standard error, and writes it to `file` unless that is empty.
 /// Throws std::runtime_error where a sink has failed or the file cannot be written; the report has then been said.

@@ -22,8 +22,6 @@ struct SendOptions {
 
 void send(const SendOptions& options) {
     if (!options.to) throw WrongUse("--to is missing: where to?");
-    if (!options.to->live)
-        throw WrongUse("link '" + options.to->text + "': needs ADDRESS:PORT, or on CAN an interface");
     if (!(options.speed > 0.0)) throw WrongUse("--speed is above 0");
     watch_stop_signals();
     const host::Capture capture = host::read_capture(options.recording, options.to->protocol);
@@ -59,7 +57,7 @@ void add_send(CLI::App& program, Action& action) {
     const auto options = std::make_shared<SendOptions>();
     command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
     add_option(
-        command, "--to", options->to, read_link,
+        command, "--to", options->to, read_live_link,
         "Where to: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\ncan://INTERFACE or modbus://ADDRESS:PORT (required)",
         "URL");
     add_option(command, "--speed", options->speed, read_number, "Times as fast as it was recorded (default 1)", "X");

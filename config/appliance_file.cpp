@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "config/place_section.h"
 #include "config/toml_section.h"
 
 namespace quadrig::config {
@@ -22,14 +23,40 @@ constexpr NumberRule kThreads{"a whole number in 1..1024", [](double x) { return
 
 constexpr NumberRule kEntityType{"a whole number in 0..65535", [](double x) { return is_whole_in(x, 0.0, 65535.0); }};
 
-host::LinkUrl link_from(const TomlSection& section, std::size_t index, const std::string& text) {
+/// `refuse` is told what was expected and what was found.
+template <class Refuse>
+host::LinkUrl link_from(const std::string& text, const Refuse& refuse) {
+    host::LinkUrl url;
     try {
-        host::LinkUrl url = host::parse_link_url(text);
-        if (!url.live) section.refuse("links", index, "a link with ADDRESS:PORT", "\"" + text + "\"");
-        return url;
+        url = host::parse_link_url(text);
     } catch (const host::LinkUrlError& error) {
-        section.refuse("links", index, "a link", "one that cannot be understood: " + std::string(error.what()));
+        refuse("a link", "one that cannot be understood: " + std::string(error.what()));
     }
+    if (!url.live) refuse("a link with ADDRESS:PORT", "\"" + text + "\"");
+    return url;
+}
+
+ApplianceSettings::EntityModel entity_from(const TomlSection& section) {
+    ApplianceSettings::EntityModel entity{section.text("model"), {}};
+    const int ways =
+        int{section.has("type")} + int{section.has("position")} + int{section.has("place")} + int{section.has("link")};
+    if (ways != 1)
+        section.refuse(std::string("expected one of type, position, place, link, found ") +
+                       (ways == 0 ? "none" : "more"));
+    if (section.has("attitude") && (section.has("type") || section.has("link")))
+        section.refuse("attitude", "position or place beside it", "who tells the attitude itself");
+    if (section.has("position")) {
+        entity.placed_by = scene_pose_in(section);
+    } else if (const auto place = optional_geodetic(section, "place")) {
+        entity.placed_by = host::GeodeticPose{*place, section.has("attitude") ? attitude_in(section) : Attitude{}};
+    } else if (const auto link = section.optional_text("link")) {
+        entity.placed_by = link_from(*link, [&](const std::string& expected, const std::string& found) {
+            section.refuse("link", expected, found);
+        });
+    } else {
+        entity.placed_by = static_cast<int>(section.number("type", kEntityType));
+    }
+    return entity;
 }
 
 }  // namespace
@@ -40,7 +67,9 @@ ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRu
     ApplianceSettings settings;
     if (const auto scene = section.optional_text("scene")) settings.scene = file.parent_path() / *scene;
     for (const std::string& link : section.texts("links"))
-        settings.links.push_back(link_from(section, settings.links.size(), link));
+        settings.links.push_back(link_from(link, [&](const std::string& expected, const std::string& found) {
+            section.refuse("links", settings.links.size(), expected, found);
+        }));
     for (const std::string& url : section.texts("sinks")) {
         if (!sink.holds(url))
             section.refuse("sinks", settings.sinks.size(), std::string(sink.expected), "\"" + url + "\"");
@@ -53,8 +82,11 @@ ApplianceSettings read_appliance(const std::filesystem::path& file, const TextRu
     if (section.has("fov")) settings.fov = Degrees{section.number("fov", kFieldOfView)};
     if (section.has("rate")) settings.rate = scheduler::frame_rate(section.number("rate", kRate));
     if (section.has("threads")) settings.threads = static_cast<int>(section.number("threads", kThreads));
-    for (const TomlSection& entity : section.tables("entity", {"type", "model"}))
-        settings.entities.push_back({static_cast<int>(entity.number("type", kEntityType)), entity.text("model")});
+    for (const TomlSection& entity :
+         section.tables("entity", {"model", "type", "position", "place", "attitude", "link"})) {
+        settings.entities.push_back(entity_from(entity));
+        if (settings.entities.size() > kMostEntityModels) entity.refuse("expected at most 64 entities, found more");
+    }
     if (const auto name = section.optional_text("quality")) {
         if (*name != kAutomaticQuality && !step_named(shipped_ladder(), *name))
             section.refuse("quality", quality_names(shipped_ladder()), "\"" + *name + "\"");

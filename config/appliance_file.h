@@ -5,11 +5,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "config/file_error.h"
 #include "config/quality_ladder.h"
 #include "frame_scheduler/frame_clock.h"
+#include "host_link/host_state.h"
 #include "host_link/link_url.h"
 #include "ig_core/geometry/space.h"
 
@@ -22,6 +24,7 @@ struct ImageSize {
 };
 inline constexpr int kLargestImage = 16384;
 inline constexpr int kMostThreads = 1024;
+inline constexpr std::size_t kMostEntityModels = 64;
 
 /// Every setting is absent, or its list empty, where it was not given.
 struct ApplianceSettings {
@@ -32,10 +35,11 @@ struct ApplianceSettings {
     std::optional<Degrees> fov;  ///< horizontal field of view, above 0 and below 180
     std::optional<scheduler::FrameRate> rate;
     std::optional<int> threads;  ///< 1..kMostThreads
-    /// What entities of a type look like: a model of config_directory()/models.
+    /// A model of config_directory()/models, and what places it: the driving host, as its entities of a type
+    /// (0..65535); a place in the scene or on the earth; or a link of its own.
     struct EntityModel {
-        int type = 0;  ///< 0..65535
         std::string model;
+        std::variant<int, ScenePose, host::GeodeticPose, host::LinkUrl> placed_by;
     };
     std::vector<EntityModel> entities;
     std::optional<std::string> quality;  ///< a step of the shipped ladder, or kAutomaticQuality

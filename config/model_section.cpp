@@ -15,16 +15,6 @@ bool is_plain(const std::string& name) {
     return name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
 }
 
-ScenePose read_pose(const TomlSection& section) {
-    ScenePose pose;
-    pose.position = {section.triple("position", kCoordinate)};
-    if (section.has("attitude")) {
-        const glm::dvec3 degrees = section.triple("attitude", kTurn);
-        pose.eye_from_scene = eye_from_scene_rotation({{degrees.x}, {degrees.y}, {degrees.z}});
-    }
-    return pose;
-}
-
 }  // namespace
 
 std::vector<Object> read_model(const std::filesystem::path& file) {
@@ -59,7 +49,7 @@ void add_models(const TomlSection& document, Names& names, Scene& scene) {
             section.refuse("model", "the name of a file in " + file.parent_path().string(), "\"" + model + "\"");
         const auto [known, is_new] = models.try_emplace(model);
         if (is_new) known->second = read_model(file);
-        const ScenePose pose = read_pose(section);
+        const ScenePose pose = scene_pose_in(section);
         count += known->second.size();
         if (count > kMostPlacedObjects) section.refuse("expected at most 100000 objects of all models, found more");
         for (const Object& object : known->second) {

@@ -13,8 +13,6 @@ constexpr NumberRule kLean{"degrees in 0..90", [](double x) { return x >= 0.0 &&
 constexpr NumberRule kPeriod{"seconds in 1e-3..1e9", [](double x) { return x >= 1e-3 && x <= 1e9; }};
 constexpr NumberRule kThreshold{"a threshold in -10..10", [](double x) { return x >= -10.0 && x <= 10.0; }};
 
-Attitude attitude_from(const glm::dvec3& degrees) { return {{degrees.x}, {degrees.y}, {degrees.z}}; }
-
 Translucence read_translucence(const TomlSection& section) {
     Translucence translucence;
     translucence.threshold = section.number("threshold", kThreshold);
@@ -31,7 +29,7 @@ Ellipsoid read_ellipsoid(const TomlSection& section) {
     ellipsoid.centre = {section.triple("centre", kCoordinate)};
     ellipsoid.semi_axes = section.triple("semi_axes", kLength);
     if (section.has("attitude")) {
-        ellipsoid.attitude = attitude_from(section.triple("attitude", kTurn));
+        ellipsoid.attitude = attitude_in(section);
         if (section.has("heading")) section.refuse("heading", "either heading or attitude", "both");
     }
     if (section.has("heading")) ellipsoid.attitude.heading = {section.number("heading", kTurn)};

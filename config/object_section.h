@@ -1,20 +1,18 @@
 /// Objects and their paint as tables of a scene file, and what their numbers may be.
 #pragma once
 
+#include "config/place_section.h"
 #include "config/texture_section.h"
 #include "config/toml_section.h"
 #include "ig_core/scene/scene.h"
 
 namespace quadrig::config {
 
-// Far beyond any scene, near enough that squares of products stay finite in a double.
-inline constexpr NumberRule kCoordinate{"metres in -1e9..1e9", [](double x) { return x >= -1e9 && x <= 1e9; }};
 inline constexpr NumberRule kLength{"metres in 1e-6..1e9", [](double x) { return x >= 1e-6 && x <= 1e9; }};
 inline constexpr NumberRule kSlope{"a slope in 1e-6..1e6", [](double x) { return x >= 1e-6 && x <= 1e6; }};
 inline constexpr NumberRule kCoefficient{"a coefficient in -1e60..1e60",
                                          [](double x) { return x >= -1e60 && x <= 1e60; }};
 inline constexpr NumberRule kColour{"linear light in 0..1", kFraction.holds};
-inline constexpr NumberRule kTurn{"degrees in -360..360", [](double x) { return x >= -360.0 && x <= 360.0; }};
 
 /// Paint of the ground, a cloud deck or an object. Throws FileError.
 Paint read_paint(const TomlSection& section, Textures& textures);

@@ -8,19 +8,12 @@
 namespace quadrig::config {
 namespace {
 
-constexpr NumberRule kLatitude{"degrees in -90..90", [](double x) { return x >= -90.0 && x <= 90.0; }};
-constexpr NumberRule kLongitude{"degrees in -180..360", [](double x) { return x >= -180.0 && x <= 360.0; }};
-
-GeodeticPosition read_origin(const TomlSection& origin) {
-    return {{origin.number("latitude", kLatitude)},
-            {origin.number("longitude", kLongitude)},
-            origin.number("altitude", kCoordinate)};
-}
+constexpr NumberRule kElevation{"degrees in -90..90", [](double x) { return x >= -90.0 && x <= 90.0; }};
 
 Sun read_sun(const TomlSection& section) {
     Sun sun;
     sun.azimuth = {section.number_or("azimuth", kTurn, sun.azimuth.value)};
-    sun.elevation = {section.number_or("elevation", kLatitude, sun.elevation.value)};
+    sun.elevation = {section.number_or("elevation", kElevation, sun.elevation.value)};
     sun.ambient = section.number_or("ambient", kFraction, sun.ambient);
     return sun;
 }
@@ -48,9 +41,7 @@ Scene read_scene(const std::filesystem::path& file) {
     Scene scene;
     if (const auto header = root.optional_table("scene", {"name", "origin"})) {
         scene.name = header->optional_text("name").value_or("");
-        if (const auto origin = header->optional_table("origin", {"latitude", "longitude", "altitude"})) {
-            scene.origin = read_origin(*origin);
-        }
+        if (const auto origin = optional_geodetic(*header, "origin")) scene.origin = *origin;
     }
     if (const auto sun = root.optional_table("sun", {"azimuth", "elevation", "ambient"})) scene.sun = read_sun(*sun);
     if (const auto sky = root.optional_table("sky", {"horizon", "zenith"})) scene.sky = read_sky(*sky);

@@ -39,4 +39,10 @@ void AtomicFile::fail(const char* what) const {
     throw std::runtime_error(path_.string() + ": " + what + ": " + std::strerror(errno));
 }
 
+void write_whole(const std::filesystem::path& path, std::string_view text) {
+    AtomicFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
 }  // namespace quadrig::display

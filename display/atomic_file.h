@@ -3,7 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <string_view>
 
 namespace quadrig::display {
 
@@ -26,5 +26,8 @@ class AtomicFile {
     std::filesystem::path path_, part_;
     std::FILE* stream_ = nullptr;
 };
+
+/// A file of this text, or an exception as above.
+void write_whole(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace quadrig::display

@@ -80,6 +80,13 @@ std::optional<CanFrame> candump_frame(std::string_view text) {
     return frame;
 }
 
+/// As Linux allows interfaces to be called (IFNAMSIZ).
+bool is_interface(std::string_view name) {
+    constexpr std::size_t kLongest = 15;
+    const auto shows = [](char c) { return c > ' ' && c != '\x7f'; };
+    return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, shows);
+}
+
 }  // namespace
 
 std::optional<CanFrame> can_frame(std::span<const std::byte> record) {
@@ -109,6 +116,7 @@ std::optional<CandumpLine> read_candump_line(std::string_view line) {
     const auto time = candump_time(word(line));
     if (!time) return std::nullopt;
     const std::string_view interface = word(line);
+    if (!is_interface(interface)) return std::nullopt;
     const auto frame = candump_frame(word(line));
     if (!frame) return std::nullopt;
     return CandumpLine{*time, interface, *frame};

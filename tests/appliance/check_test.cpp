@@ -48,14 +48,17 @@ TEST_CASE("Check says what an appliance file asks for, and looks into its scene"
     const auto file = scratch_file("appliance.toml",
                                    "scene = \"scene.toml\"\nlinks = [\"cigi://127.0.0.1:8004\", \"fdm://:5500\"]\n"
                                    "sinks = [\"png:out\"]\nsize = [640, 480]\nfov = 75\nrate = 59.94\nthreads = 2\n"
-                                   "quality = \"best\"\n");
+                                   "quality = \"best\"\n"
+                                   "[[entity]]\nmodel = \"x-29\"\nlink = \"modbus://:1502\"\n"
+                                   "[[entity]]\nmodel = \"x-29\"\ntype = 12\n");
     const Outcome without = quadrig_program({"check", file});
     CHECK(without.status == 1);
     CHECK_THAT(without.err, Contains("scene.toml"));
     std::filesystem::copy(scratch_file("scene.toml", small_scene()), file.parent_path() / "scene.toml");
     CHECK_THAT(said_of(file), Contains("cigi://127.0.0.1:8004") && Contains("fdm://:5500") && Contains("png:out") &&
                                   Contains("640x480") && Contains("75 degrees") && Contains("59.94") &&
-                                  Contains("best"));
+                                  Contains("best") && Contains("x-29, driven by modbus://:1502") &&
+                                  Contains("x-29, the host's of type 12"));
 }
 
 TEST_CASE("Mistakes in an appliance file are told with file, line and key") {
@@ -73,6 +76,14 @@ TEST_CASE("Mistakes in an appliance file are told with file, line and key") {
         {"quality = \"nice\"", "key 'quality': expected draft, "},
         {"scene = \"\"", "key 'scene'"},
         {"colour = 3", "key 'colour': expected one of"},
+        {"entity = [{ model = \"x-29\" }]", "key 'entity[0]': expected one of type, position, place, link, found none"},
+        {"entity = [{ model = \"x-29\", type = 3, position = [0, 0, 0] }]", "link, found more"},
+        {"entity = [{ model = \"x-29\", type = 3, attitude = [0, 0, 0] }]",
+         "key 'entity[0].attitude': expected position"},
+        {"entity = [{ model = \"x-29\", link = \"fdm:\" }]", "key 'entity[0].link': expected a link with ADDRESS:PORT"},
+        {"entity = [{ model = \"x-29\", place = { latitude = 91, longitude = 0, altitude = 0 } }]",
+         "key 'entity[0].place.latitude'"},
+        {"entity = [{ position = [0, 0, 0] }]", "key 'entity[0].model'"},
     };
     for (const auto& [line, complaint] : cases) {
         const std::string file = scratch_file("appliance.toml", "# settings\n\n" + line + "\n[scenery]\n");

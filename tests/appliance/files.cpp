@@ -147,4 +147,10 @@ translucence = { threshold = 0.05, limb_threshold = 0.4 }
 )";
 }
 
+std::string still_scene() {
+    std::string text = small_scene();
+    const std::string drift = "drift = [2.0, 1.0]";
+    return text.erase(text.find(drift), drift.size());
+}
+
 }  // namespace quadrig::tests

@@ -49,5 +49,7 @@ Difference difference(const display::Picture& a, const display::Picture& b);
 /// A small scene with every kind of thing in it, its origin at 47.26 N, 11.34 E, 581 m. `sun_and_haze` stands in place
 /// of its own [sun] and [haze].
 std::string small_scene(std::string_view sun_and_haze = "[sun]\nazimuth = 200\nelevation = 35\n");
+/// The same without drift: what is seen does not depend on when.
+std::string still_scene();
 
 }  // namespace quadrig::tests

@@ -1,5 +1,7 @@
 #include "tests/appliance/flights.h"
 
+#include <cmath>
+
 #include "host_link/flightgear_fdm.h"
 #include "tests/appliance/files.h"
 
@@ -52,7 +54,8 @@ std::filesystem::path recording(const std::vector<Bytes>& datagrams, std::uint16
 std::filesystem::path fdm_climb(int count) {
     std::vector<Bytes> datagrams;
     for (int i = 0; i < count; ++i)
-        datagrams.push_back(fdm_message({14.0 + 0.1 * i, {{360.0 - 0.3 * i}, {2.0}, {-0.2 * i}}}));
+        datagrams.push_back(
+            fdm_message({14.0 + 0.1 * i, {{360.0 - std::fmod(0.3 * i, 360.0)}, {2.0}, {-std::fmod(0.2 * i, 360.0)}}}));
     return recording(datagrams, 5500);
 }
 

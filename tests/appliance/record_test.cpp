@@ -12,6 +12,7 @@
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
 #include "tests/appliance/program.h"
+#include "tests/ig_core/randomness.h"
 
 using namespace quadrig;
 using namespace quadrig::tests;
@@ -104,20 +105,27 @@ TEST_CASE("A Modbus host's live run is recorded, tshark reads it, and it gives t
     CHECK_THAT(poses[3][1], Catch::StartsWith("1,2,0,32,16455,41287,44564,31457,"));
 }
 
+// QUADRIG_TEST_SCALE=240 makes it ten minutes.
 TEST_CASE("A recording whose process was killed has all but the last second, and can be played") {
+    const double seconds = 0.1 * test::trials(25);
     const auto recording = scratch_directory() / "killed.pcapng";
     Program program({"record", recording, "--link", "fdm://127.0.0.1:0"});
     const auto port = program.number_after("listens on port ");
     REQUIRE(port);
-    Program host({"send", fdm_climb(600), "--to", "fdm://127.0.0.1:" + std::to_string(*port)});
-    std::this_thread::sleep_for(2500ms);
+    Program host(
+        {"send", fdm_climb(static_cast<int>(60 * seconds) + 450), "--to", "fdm://127.0.0.1:" + std::to_string(*port)});
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
     program.signal(SIGKILL);
     const auto killed = std::chrono::system_clock::now().time_since_epoch();
     program.wait();
     host.signal(SIGTERM);
+    const std::string sent = host.wait().err;
     const auto rows = host::test::tshark_fields(recording, {"frame.time_epoch", "frame.time_relative"});
     // The recording's clock is the calendar's to half a second; a machine that was away owes the host its datagrams.
-    CHECK(rows.size() > 60);
+    CAPTURE(sent, rows.size());
+    const auto recorded = static_cast<double>(rows.size());
+    CHECK(recorded > 60 * seconds / 3);
+    CHECK(recorded > std::stod(sent.substr(sent.find(": ") + 2)) - 60);
     CHECK(std::stod(rows.back()[0]) > std::chrono::duration<double>(killed).count() - 2.0);
     const Outcome check = quadrig_program({"check", recording});
     CHECK(check.status == 0);

@@ -252,3 +252,38 @@ TEST_CASE("A sink that fails ends a replay with a failure, its report made") {
     CHECK_THAT(outcome.err, Contains("/dev/full"));
     CHECK(report_of(report)["sinks"][0]["failed"] > 0);
 }
+
+TEST_CASE("Of a recording with several flows the one is played whose protocol --link names, else the fullest") {
+    constexpr std::uint32_t kRawIp = 101;
+    host::test::PcapWriter writer(kRawIp);
+    const auto add = [&](int i, const Bytes& message, std::uint16_t port, std::uint32_t host) {
+        writer.packet(host::test::ipv4_udp(message, {.source = host, .destination_port = port}),
+                      std::chrono::milliseconds(1'700'000'000'000 + 16 * i));
+    };
+    for (int i = 0; i < 30; ++i) {
+        const auto frame = static_cast<std::uint32_t>(i);
+        add(i, fdm_message({100.0, {}}), 5500, 1);
+        if (i < 20) add(i, cigi_message(frame, {200.0, {}}), 8004, 2);
+        if (i < 10) add(i, cigi_message(frame, {300.0, {}}), 8005, 3);
+    }
+    const auto file = scratch_directory() / "flows.pcap";
+    host::test::write_file(file, writer.bytes());
+    const auto link = [&](const Arguments& more) {
+        Arguments arguments{file, "--scene", scene(), "--size", "16x12", "--fast"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return replayed(arguments)["links"][0];
+    };
+    for (const auto& fullest : {link({}), link({"--link", "fdm:"})}) {
+        CHECK(fullest["frames"] == 30);
+        CHECK(fullest["last_pose"]["altitude"] == Approx(681.0));
+        CHECK(fullest["flow"] == "0.0.0.1 -> 127.0.0.1:5500");
+    }
+    const auto named = link({"--link", "cigi:"});
+    CHECK(named["frames"] == 20);
+    CHECK(named["lost"] == 0);
+    CHECK(named["last_pose"]["altitude"] == Approx(781.0));
+    CHECK(named["flow"] == "0.0.0.2 -> 127.0.0.1:8004");
+    const Outcome none = quadrig_program({"replay", file, "--scene", scene(), "--fast", "--link", "can:"});
+    CHECK(none.status == 1);
+    CHECK_THAT(none.err, Contains("no datagram of a CANaerospace host in 60 packets"));
+}

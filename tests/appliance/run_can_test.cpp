@@ -20,8 +20,11 @@ quadrig=$!
 for i in $(seq 200); do grep -q 'listens on interface vcan0' "$OUT/err" && break; sleep 0.05; done
 candump -L vcan0 > "$OUT/bus.log" & candump=$!
 for i in $(seq 100); do sleep 0.1; grep -q . "$OUT/bus.log" && break; cansend vcan0 080#09000017; done
+"$QUADRIG" monitor can://vcan0 > "$OUT/monitor" 2> "$OUT/monitor.err" & monitor=$!
+for i in $(seq 200); do grep -q 'listens on' "$OUT/monitor.err" && break; sleep 0.05; done
 canplayer -I "$OUT/second.log" vcan0=can0
 sleep 0.3
+kill -TERM $monitor; wait $monitor || exit 1
 kill -TERM $quadrig; wait $quadrig; status=$?
 kill $candump
 cat "$OUT/err" >&2
@@ -66,6 +69,10 @@ TEST_CASE(
     CHECK(link["last_pose"]["longitude"].get<double>() == Approx(-95.16395).margin(1e-4));
     CHECK(link["replies"].get<int>() >= 1);
     CHECK(text_of(out / "bus.log").find("081#0910001701010000") != std::string::npos);
+    const std::string monitored = text_of(out / "monitor");
+    INFO(monitored);
+    for (const char* row : {"body_pitch_angle 311", "body_roll_angle 312", "1038"})
+        CHECK(monitored.find(row) != std::string::npos);
     const auto scene = std::string(std::getenv("SCENE"));
     const Outcome again = quadrig_program(
         {"replay", out / "heard.log", "--scene", scene, "--size", "16x12", "--fast", "--report", out / "again.json"});

@@ -1,9 +1,4 @@
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -14,6 +9,7 @@
 #include "host_link/cigi_query.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
+#include "tests/appliance/host_socket.h"
 #include "tests/appliance/program.h"
 
 using namespace quadrig;
@@ -22,34 +18,6 @@ using namespace std::chrono_literals;
 using Catch::Contains;
 
 namespace {
-
-/// A host's socket on the loopback interface.
-class HostSocket {
-  public:
-    explicit HostSocket(int port) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(static_cast<std::uint16_t>(port));
-        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        REQUIRE(connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0);
-    }
-    ~HostSocket() { close(socket_); }
-    HostSocket(const HostSocket&) = delete;
-    HostSocket& operator=(const HostSocket&) = delete;
-    void send(const Bytes& bytes) const { ::send(socket_, bytes.data(), bytes.size(), 0); }
-    /// Empty where nothing comes in time.
-    [[nodiscard]] Bytes receive(std::chrono::milliseconds patience) const {
-        pollfd waiting{socket_, POLLIN, 0};
-        if (poll(&waiting, 1, static_cast<int>(patience.count())) != 1) return {};
-        Bytes bytes(200);
-        const auto size = recv(socket_, bytes.data(), bytes.size(), 0);
-        bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-        return bytes;
-    }
-
-  private:
-    int socket_;
-};
 
 /// A bound port that nobody listens at.
 struct OccupiedPort {
@@ -90,18 +58,13 @@ display::Picture rendered(const std::string& eye, const std::string& attitude, c
     return display::read_png(out);
 }
 
-/// The scene without drift: what is seen does not depend on when.
-std::string still_scene() {
-    std::string text = small_scene();
-    text.erase(text.find("drift"), std::string("drift = [2.0, 1.0]").size());
-    return scratch_file("still.toml", text);
-}
+std::string still_scene_file() { return scratch_file("still.toml", still_scene()); }
 
 }  // namespace
 
 TEST_CASE("A FlightGear host drives the picture live, until SIGTERM asks for the report") {
     const auto out = scratch_directory();
-    const std::string scene_file = still_scene();
+    const std::string scene_file = still_scene_file();
     Program program({"run", "--scene", scene_file, "--link", "fdm://127.0.0.1:0", "--sink",
                      "png:" + (out / "p").string(), "--size", "96x64", "--report", out / "r.json"});
     const auto port = program.number_after("listens on port ");
@@ -201,7 +164,7 @@ TEST_CASE("A CIGI host gets Start Of Frame back, every frame, and is answered wi
 
 TEST_CASE("Until a host is there the scene is seen from its origin, and a run of N frames is N frames") {
     const auto out = scratch_directory();
-    const std::string scene_file = still_scene();
+    const std::string scene_file = still_scene_file();
     const Outcome outcome = quadrig_program({"run", "--scene", scene_file, "--link", "cigi://127.0.0.1:0", "--sink",
                                              "y4m:-", "--sink", "png:" + (out / "p").string(), "--size", "96x64",
                                              "--frames", "12", "--rate", "20", "--report", out / "r.json"});
@@ -256,7 +219,7 @@ TEST_CASE("A port in use is a failure that names the link, before the scene is l
 
 TEST_CASE("Of two hosts the first in order drives, and the second where the first falls silent") {
     const auto out = scratch_directory();
-    const std::string scene_file = still_scene();
+    const std::string scene_file = still_scene_file();
     Program program({"run", "--scene", scene_file, "--link", "fdm://127.0.0.1:0", "--link",
                      "cigi://127.0.0.1:0?ownship=0", "--sink", "png:" + (out / "p").string(), "--size", "96x64",
                      "--report", out / "r.json"});

@@ -359,3 +359,15 @@ TEST_CASE("Slow, broken, silent and deaf clients do not hold a host up") {
     CHECK(live.link.statistics().rejected_for(Reject::bad_request) >= 1);
     CHECK(live.state.pose->position.latitude.value == 47.26);
 }
+
+TEST_CASE("A peer that a Modbus link is not told to hear finds its connection closed, and moves nothing") {
+    Live closed("?allow=10.8.0.0/13,192.0.2.10"), open("?allow=127.0.0.0/8");
+    Client stranger(closed.link.port()), host(open.link.port());
+    CHECK(stranger.ask(pose_frame(1)).empty());
+    CHECK(host.ask(pose_frame(1)).size() == 12);
+    CHECK(open.sees(1));
+    CHECK_FALSE(closed.link.take_newest(closed.state));
+    CHECK(closed.link.statistics().rejected_for(Reject::not_allowed) == 1);
+    CHECK(closed.link.statistics().datagrams == 0);
+    CHECK(open.link.statistics().rejected_in_all() == 0);
+}

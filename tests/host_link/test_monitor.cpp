@@ -3,6 +3,7 @@
 
 #include "host_link/can_frame.h"
 #include "host_link/canaerospace.h"
+#include "host_link/capture.h"
 #include "host_link/flightgear_fdm.h"
 #include "host_link/modbus_pose.h"
 #include "host_link/monitor.h"
@@ -133,4 +134,22 @@ TEST_CASE("A flood of oddities and of packets is counted beyond what is shown") 
     const std::string view = link.monitor.view(link.now);
     CHECK(std::ranges::count(view, '\n') < std::ptrdiff_t{Monitor::kMostRows} + 10);
     CHECK_THAT(view, Contains("packets of further kinds"));
+}
+
+TEST_CASE("A recorded CAN bus is seen with every parameter of its host, at their rates, and its one gap") {
+    const Capture bus =
+        read_capture(std::filesystem::path(QUADRIG_SOURCE_DIR) / "config/traces/canaerospace-c172-takeoff.log");
+    Monitor monitor(parse_link_url("can:"));
+    Time now = 1000s;
+    const Time first = bus.datagrams.front().captured;
+    for (const auto& frame : bus.datagrams) monitor.hear({now = 1000s + (frame.captured - first), bus.payload(frame)});
+    const std::string seen = monitor.view(now);
+    INFO(seen);
+    const auto oddities = monitor.take_oddities();
+    REQUIRE(oddities.size() == 1);
+    CHECK_THAT(oddities[0], Contains("gap: no pose for 60."));
+    for (const char* row : {"body_pitch_angle 311", "body_roll_angle 312", "1036", "1037", "1038"})
+        CHECK_THAT(seen, Contains(row));
+    CHECK(monitor.statistics().datagrams == bus.datagrams.size());
+    CHECK(monitor.statistics().last_pose.has_value());
 }

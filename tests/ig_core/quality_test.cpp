@@ -21,13 +21,6 @@ Scene plain_scene(Randomness& random, int objects) {
     return scene;
 }
 
-template <class Member, class Value>
-Quality with(Member Quality::*member, Value value) {
-    Quality quality;
-    quality.*member = value;
-    return quality;
-}
-
 }  // namespace
 
 TEST_CASE("without antialiasing every pixel shows what is seen at its centre, and nothing else") {
@@ -36,7 +29,7 @@ TEST_CASE("without antialiasing every pixel shows what is seen at its centre, an
         Randomness random(trial);
         const Scene scene = plain_scene(random, 25);
         const View view = random_view(random, 96, 72);
-        const Picture picture = render(scene, view, {}, with(&Quality::sub_scan_lines, 0));
+        const Picture picture = render(scene, view, {}, {.sub_scan_lines = 0});
         const GroundTruth truth = ImageGenerator(scene).ground_truth(view);
         for (int row = 0; row < 72; ++row)
             for (int column = 0; column < 96; ++column) {
@@ -54,7 +47,7 @@ TEST_CASE("with every second pixel shaded, neighbours share their colour whereve
     Scene scene = painted_scene(random, 0);
     scene.cloud_decks.clear();
     const View view = look({0, 0, 20}, {{20}, {-50}, {0}}, 96, 72, 40);
-    const Picture picture = render(scene, view, {}, with(&Quality::shading, ShadingRate::half));
+    const Picture picture = render(scene, view, {}, {.shading = ShadingRate::half});
     const Picture full = render(scene, view);
     int different = 0;
     for (int row = 0; row < 72; ++row)
@@ -72,7 +65,7 @@ TEST_CASE("drawn twice as fine, a pixel is the mean of the four that it would be
         Randomness random(trial);
         const Scene scene = painted_scene(random, 12);
         View view = random_view(random, 90, 66);
-        const Picture fine = render(scene, view, {}, with(&Quality::shading, ShadingRate::four));
+        const Picture fine = render(scene, view, {}, {.shading = ShadingRate::four});
         view.image.width *= 2, view.image.height *= 2;
         view.image.column_step /= 2, view.image.row_step /= 2;
         const Picture large = render(scene, view);
@@ -95,7 +88,7 @@ TEST_CASE("objects whose outlines are lower than the smallest feature are not dr
     const View view = look({0, 0, 0}, {}, 400, 100, 60);
     const double pixels_per_metre = 200 / std::tan(0.5236) / 400;
     for (const double smallest : {0.0, 4.0, 9.0}) {
-        const GroundTruth truth = ImageGenerator(scene).ground_truth(view, with(&Quality::smallest_feature, smallest));
+        const GroundTruth truth = ImageGenerator(scene).ground_truth(view, {.smallest_feature = smallest});
         for (int i = 0; i < 10; ++i) {
             const bool drawn = std::find(truth.object_ids.begin(), truth.object_ids.end(), i) != truth.object_ids.end();
             CAPTURE(smallest, i);
@@ -112,7 +105,7 @@ TEST_CASE("by interpolated distance a ball is as far away as its limb, so a wall
     const View view = look({0, 0, 0}, {}, 200, 200, 20);
     ImageGenerator generator(scene);
     const GroundTruth exact = generator.ground_truth(view);
-    const GroundTruth paper = generator.ground_truth(view, with(&Quality::distance, DistanceRule::interpolated));
+    const GroundTruth paper = generator.ground_truth(view, {.distance = DistanceRule::interpolated});
     const auto shown = [](const GroundTruth& truth) {
         return std::count(truth.object_ids.begin(), truth.object_ids.end(), 0);
     };
@@ -135,7 +128,7 @@ TEST_CASE("the paper's formulas in double see an everyday scene as ours do, in f
         ImageGenerator generator(scene);
         const GroundTruth ours = generator.ground_truth(view);
         const auto different = [&](SetUp set_up) {
-            const GroundTruth theirs = generator.ground_truth(view, with(&Quality::set_up, set_up));
+            const GroundTruth theirs = generator.ground_truth(view, {.set_up = set_up});
             int count = 0;
             for (std::size_t i = 0; i < ours.object_ids.size(); ++i)
                 count += ours.object_ids[i] != theirs.object_ids[i];
@@ -151,15 +144,14 @@ TEST_CASE("every quality gives the same bits for any number of threads") {
     Randomness random(5);
     const Scene scene = painted_scene(random, 40);
     const View view = random_view(random, 130, 99);
-    std::vector<Quality> qualities{with(&Quality::sub_scan_lines, 0), with(&Quality::sub_scan_lines, 8),
-                                   with(&Quality::distance, DistanceRule::interpolated),
-                                   with(&Quality::smooth_stretches, false)};
-    for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four})
-        qualities.push_back(with(&Quality::shading, rate));
+    std::vector<Quality> qualities{{.sub_scan_lines = 0},
+                                   {.sub_scan_lines = 8},
+                                   {.distance = DistanceRule::interpolated},
+                                   {.smooth_stretches = false}};
+    for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four}) qualities.push_back({.shading = rate});
     for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library})
-        qualities.push_back(with(&Quality::sine, sine));
-    for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single})
-        qualities.push_back(with(&Quality::set_up, set_up));
+        qualities.push_back({.sine = sine});
+    for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) qualities.push_back({.set_up = set_up});
     ImageGenerator one(scene, 1), three(scene, 3);
     for (std::size_t i = 0; i < qualities.size(); ++i) {
         CAPTURE(i);

@@ -5,12 +5,18 @@
 #include <cmath>
 
 #include "frame_scheduler/host_view.h"
+#include "host_link/entity_motion.h"
 #include "host_link/sun_position.h"
 
 namespace quadrig::appliance {
 
 std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time frame_time) {
-    const std::optional<ScenePose> body = smoother_.pose_at(state, frame_time);
+    shown_time_ = smoother_.shown_time(state, frame_time);
+    ownship_.reset();
+    if (const auto pose = smoother_.pose_at(state, frame_time)) ownship_.emplace(state.ownship, *pose);
+    const auto body_of = [&](std::uint16_t id) { return host::pose_of(state.entities, id, shown_time_, ownship_); };
+    std::optional<ScenePose> body = state.view_entity ? body_of(*state.view_entity) : std::nullopt;
+    if (!body) body = body_of(state.ownship);
     if (!body) return std::nullopt;
     const ImagePlane plane = surroundings_.ignore_host_window
                                  ? surroundings_.channel
@@ -28,10 +34,12 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
     }
     std::size_t count = 0;
     const std::vector<int>& types = surroundings_.entity_types;
-    for (std::size_t i = 0; i < state.entity_count; ++i) {
-        const host::Entity& entity = state.entities[i];
-        const auto model = std::find(types.begin(), types.end(), entity.type);
-        if (model != types.end()) bodies_[count++] = {static_cast<std::uint32_t>(model - types.begin()), entity.pose};
+    for (const host::Entity& entity : state.entities) {
+        if (entity.id == state.ownship || !entity.type || !is_shown(state.entities, entity)) continue;
+        const auto model = std::find(types.begin(), types.end(), *entity.type);
+        if (model == types.end()) continue;
+        const auto pose = host::pose_of(state.entities, entity.id, shown_time_, ownship_);
+        if (pose) bodies_[count++] = {static_cast<std::uint32_t>(model - types.begin()), *pose};
     }
     environment.bodies = {bodies_.data(), count};
     return environment;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "frame_scheduler/frame_clock.h"
@@ -28,9 +29,10 @@ class HostEye {
     explicit HostEye(const Surroundings& surroundings) : surroundings_(surroundings) {}
 
     /// The view for a frame due at `frame_time`, by the clock of the state's arrivals. To be called once a frame with
-    /// the state latched for it. Nothing before the host's first pose.
+    /// the state latched for it. Nothing before the host's first pose. The eye rides on the entity that the host has
+    /// put it on, as long as that is there, and else on the ownship.
     std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
-    /// `elapsed`: the scene's time.
+    /// For the frame that view() was asked about last. `elapsed`: the scene's time.
     /// What the environment refers to is good until the next call.
     [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed);
     /// When the newest pose came in, where no frame before has asked for it.
@@ -38,8 +40,11 @@ class HostEye {
 
   private:
     Surroundings surroundings_;
-    std::array<PlacedModel, host::kMostShownEntities> bodies_;
+    std::array<PlacedModel, host::EntityList::kMost> bodies_;
     scheduler::MotionSmoother smoother_;
+    /// Of the frame that view() was asked about last.
+    scheduler::Time shown_time_{};
+    std::optional<std::pair<std::uint16_t, ScenePose>> ownship_;
     std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
 };
 

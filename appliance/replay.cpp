@@ -167,7 +167,7 @@ void replay(const ReplayOptions& options) {
 }
 
 constexpr const char* kNotes =
-    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
+    "The recording is a pcap or pcapng file of CIGI or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
     "a\n"
     "log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ "
     "seconds\n"

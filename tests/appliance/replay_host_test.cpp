@@ -75,6 +75,18 @@ TEST_CASE("A CIGI pose is seen as the still picture from the same eye") {
                rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
 }
 
+TEST_CASE("A CIGI 4.0 stream is seen as the 3.3 stream of the same pose is, to the last bit") {
+    host::cigi::ViewControl mount;
+    mount.yaw_enable = true, mount.yaw = -30.0F;
+    const auto seen = [&](host::cigi::Version version) {
+        const host::cigi::Format format{kOrder, version};
+        Bytes more;
+        host::test::append(more, mount, format);
+        return replayed(cigi_message(0, kPose, more, format), true, small_scene());
+    };
+    CHECK(difference(seen(host::cigi::Version::three), seen(host::cigi::Version::four)).largest == 0);
+}
+
 TEST_CASE("The altitude offset of a link moves the eye") {
     check_same(replayed(fdm_message(kPose), false, small_scene(), {"--link", "fdm:?altitude_offset=6.5"}),
                rendered(small_scene(), "0,0,20.5", "12.5,-3,20", "60"));

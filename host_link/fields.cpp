@@ -101,6 +101,29 @@ Fields fields_of(const cigi::AtmosphereControl& p) {
             {"pressure", p.pressure, "hPa"}};
 }
 
+Fields fields_of(const cigi::WeatherControl& p) {
+    return {whole("enable", p.enable),
+            whole("scope", p.scope),
+            {"base", p.base, "m", -12e3, 1e5},
+            {"thickness", p.thickness, "m", 0, 1e5},
+            {"coverage", p.coverage, "%", 0, 100},
+            {"visibility", p.visibility, "m", 0}};
+}
+
+Fields fields_of(const cigi::ShortComponentControl& p) {
+    return {whole("class", p.component_class), whole("instance", p.instance), whole("state", p.state),
+            whole("data_1", p.data[0]), whole("data_2", p.data[1])};
+}
+
+Fields fields_of(const cigi::SensorControl& p) {
+    return {whole("sensor", p.sensor), whole("on", p.on), whole("track_mode", p.track_mode)};
+}
+
+Fields fields_of(const cigi::CollisionSegmentDefinition& p) {
+    return {whole("segment", p.segment), whole("enable", p.enable), metres("x1", p.from[0]), metres("y1", p.from[1]),
+            metres("z1", p.from[2]),     metres("x2", p.to[0]),     metres("y2", p.to[1]),   metres("z2", p.to[2])};
+}
+
 Fields point_fields(const std::array<double, 3>& point, bool entity_axes) {
     if (entity_axes) return {metres("x", point[0]), metres("y", point[1]), metres("z", point[2])};
     return {degrees("latitude", point[0], 90), degrees("longitude", point[1], 180), metres("altitude", point[2])};
@@ -141,13 +164,18 @@ ToldPacket told(const cigi::Packet& packet, cigi::Format format) {
             told.name += ' ' + std::to_string(read.request);
         else if constexpr (requires { read.view; })
             told.name += ' ' + std::to_string(read.view);
+        else if constexpr (requires { read.component; })
+            told.name += ' ' + std::to_string(read.component);
+        else if constexpr (requires { read.layer; })
+            told.name += ' ' + std::to_string(read.layer);
         else if constexpr (requires { read.entity; })
             told.name += ' ' + std::to_string(read.entity);
     };
     const auto read_as = [&]<class... P>(P... kinds) { ((packet.id == P::kId ? as(kinds) : void()), ...); };
     read_as(cigi::IgControl{}, cigi::EntityControl{}, cigi::EntityPosition{}, cigi::RateControl{}, cigi::ViewControl{},
-            cigi::ViewDefinition{}, cigi::CelestialSphereControl{}, cigi::AtmosphereControl{}, cigi::HatHotRequest{},
-            cigi::LosSegmentRequest{}, cigi::LosVectorRequest{});
+            cigi::ViewDefinition{}, cigi::CelestialSphereControl{}, cigi::AtmosphereControl{}, cigi::WeatherControl{},
+            cigi::ShortComponentControl{}, cigi::SensorControl{}, cigi::CollisionSegmentDefinition{},
+            cigi::HatHotRequest{}, cigi::LosSegmentRequest{}, cigi::LosVectorRequest{});
     if (told.fields.empty()) told.name += " (packet id " + std::to_string(packet.id) + ", skipped)";
     return told;
 }

@@ -62,6 +62,7 @@ struct Entity {
     std::optional<std::uint16_t> type;  ///< absent where 4.0 tells it in full (SISO-REF-010)
     bool active = false;                ///< to be shown, as far as its parents are
     bool placed = false;                ///< `pose` is known
+    bool detects_collisions = false;    ///< its segments are looked along
     std::optional<std::uint16_t> parent;
     ScenePose pose;  ///< at `since`; of an attached entity in its parent's axes, as if those were the scene's
     glm::dmat3 level_from_scene{1.0};  ///< level axes there; of an attached entity its parent's
@@ -84,6 +85,15 @@ struct EntityList {
     }
 };
 
+/// A layer of weather over all the scene, in heights of scene space.
+struct WeatherLayer {
+    bool enabled = false;
+    double base = 0.0, top = 0.0;  ///< m
+    double coverage = 1.0;         ///< 0..1
+    double visibility = 0.0;       ///< m, between base and top
+    [[nodiscard]] bool holds(double height) const { return enabled && height >= base && height <= top; }
+};
+
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
     Mode mode = Mode::operate;
@@ -93,7 +103,11 @@ struct HostState {
     std::optional<glm::dvec3> velocity;  ///< m/s east, north, up at the ownship, where the host says so
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
-    std::optional<double> visibility;         ///< m, meteorological optical range
+    std::optional<double> visibility;  ///< m, meteorological optical range
+    /// 0: ground fog, then the scene's cloud decks; absent: as the scene has it.
+    std::array<std::optional<WeatherLayer>, 4> weather{};
+    bool test_pattern = false;
+    std::optional<bool> overlay;              ///< absent: as the appliance was asked
     std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
     std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host_link/canaerospace_pose.h"
 #include "host_link/cigi.h"
@@ -37,7 +38,10 @@ struct SessionOptions {
     canaerospace::PoseSettings canaerospace;    ///< which messages make a pose
     modbus::PoseSettings modbus;                ///< where the registers are
     std::uint8_t can_node = kDefaultCanNode;    ///< under which CANaerospace's services find us
-    Surveyor surveyor;                          ///< answers for the scene; without one such requests are only counted
+    /// CIGI: types of entities that have a model; of others the host is warned.
+    std::vector<int> entity_types;
+    std::size_t cloud_decks = 0;  ///< that the scene has
+    Surveyor surveyor;            ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };
 
@@ -77,6 +81,11 @@ class Session {
     static constexpr std::size_t kMostResponses = 64;
     /// Connections whose unfinished writes are kept; of more, those that wrote last.
     static constexpr std::size_t kMostModbusHosts = 8;
+
+    /// Collision segments, and sensors that track, that are told of every host frame.
+    static constexpr std::size_t kMostSegments = 64, kMostSensors = 16;
+    /// Metres from a parent to what still hangs on it, and to a segment's ends.
+    static constexpr double kFarthestOffset = 1e6;
 
     explicit Session(const SessionOptions& options);
 
@@ -128,15 +137,21 @@ class Session {
     modbus::PoseRegisters& registers_of(std::uint32_t source);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
+    /// What an answer needs to know of the message that asks.
+    struct Asking {
+        cigi::Format format;
+        std::uint8_t frame = 0;  ///< the lowest four bits of the host's number
+        Time arrival{};
+    };
     void apply(const cigi::IgControl& packet);
     void apply(const cigi::Packet& packet, const cigi::Message& message, Time arrival);
     Entity* entity_for(std::uint16_t id);
-    void apply(const cigi::EntityControl& packet, const cigi::Message& message, Time arrival);
-    void apply(const cigi::EntityPosition& packet, Time arrival);
-    void attach(const cigi::EntityPosition& packet, Time arrival);
+    void apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking);
+    void apply(const cigi::EntityPosition& packet, const Asking& asking);
+    void attach(const cigi::EntityPosition& packet, const Asking& asking);
     void place_ownship(const PoseSample& sample);
     void apply(const cigi::RateControl& packet, Time arrival);
-    void apply(const cigi::ViewControl& packet);
+    void apply(const cigi::ViewControl& packet, const Asking& asking);
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);
     void apply(const cigi::AtmosphereControl& packet);
@@ -145,17 +160,29 @@ class Session {
         bool segment = false, extended = false, response_entity = false;
         std::uint16_t entity = 0;
     };
-    /// What an answer needs to know of the message that asks.
-    struct Asking {
-        cigi::Format format;
-        std::uint8_t frame = 0;  ///< the lowest four bits of the host's number
-        Time arrival{};
-    };
     /// What makes a question the same one again.
     struct Asked {
         std::uint16_t request = 0;
         std::uint8_t period = 0;
     };
+    /// Message ids of the texts that a host gets.
+    enum class Warning : std::uint16_t {
+        far_from_scene = 1,
+        unknown_type,
+        unknown_view_entity,
+        bad_attachment,
+        no_such_deck,
+        count
+    };
+    [[gnu::format(printf, 4, 5)]] void warn(Warning warning, const Asking& asking, const char* form, ...);
+    void look_around(const Asking& asking);
+    void apply(const cigi::CollisionSegmentDefinition& packet);
+    void tell_collisions(const Asking& asking);
+    void apply(const cigi::SensorControl& packet, const Asking& asking);
+    void tell_sensor(const cigi::SensorControl& sensor, const Asking& asking);
+    void tell_sensors(const Asking& asking);
+    void apply(const cigi::WeatherControl& packet, const Asking& asking);
+    void apply(const cigi::ShortComponentControl& packet);
     std::optional<ScenePose> body_of(std::uint16_t id, Time at) const;
     std::optional<ScenePoint> point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id, Time arrival);
     std::optional<SurveyHit> plumb(const GeodeticPosition& below);
@@ -169,7 +196,7 @@ class Session {
     static Asking asking_of(const cigi::Message& message, Time arrival);
     template <class P>
     void respond(const P& response, cigi::Format format);
-    bool is_our_view(std::uint16_t view, std::uint8_t group);
+    bool is_our_view(std::uint16_t view);
 
     SessionOptions options_;
     SceneFrame scene_frame_;
@@ -210,6 +237,12 @@ class Session {
     std::array<Standing, kMostResponses> standing_{};
     std::size_t standing_count_ = 0;
     std::optional<std::uint16_t> view_;
+    std::uint8_t view_group_ = 0;  ///< that our view is in; 0: none
+    std::array<std::optional<Time>, static_cast<std::size_t>(Warning::count)> warned_{};
+    std::array<cigi::CollisionSegmentDefinition, kMostSegments> segments_{};
+    std::size_t segment_count_ = 0;
+    std::array<cigi::SensorControl, kMostSensors> sensors_{};
+    std::size_t sensor_count_ = 0;
     Window window_;
     std::optional<GeodeticPose> ownship_pose_;  ///< of the message that is being taken
     struct Ephemeris {
@@ -219,5 +252,15 @@ class Session {
     std::optional<Ephemeris> ephemeris_;
     bool comparable_ = false;  ///< the next pose follows the one before it on the same clock
 };
+
+template <class P>
+void Session::respond(const P& response, cigi::Format format) {
+    if (response_count_ == responses_.size()) {
+        ++statistics_.answers_dropped;
+        return;
+    }
+    Response& place = responses_[response_count_++];
+    place.size = cigi::encode(response, format, place.bytes);
+}
 
 }  // namespace quadrig::host

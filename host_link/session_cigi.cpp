@@ -90,6 +90,10 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
     const auto source_time = ig_control.timestamp_valid ? cigi_clock_.read(ig_control.timestamp) : std::nullopt;
     const Verdict verdict = take(arrival, ownship_pose_, source_time);
     // After the message's own pose: questions in the ownship's axes are about where it is now.
+    const Asking asking = asking_of(message, arrival);
+    look_around(asking);
+    tell_collisions(asking);
+    tell_sensors(asking);
     answer_standing(message, arrival);
     for (auto rest = message.packets; asks && !rest.empty();) {
         const cigi::Packet packet = next_packet(rest, message.format);
@@ -100,21 +104,30 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
 
 void Session::apply(const cigi::Packet& packet, const cigi::Message& message, Time arrival) {
     const auto as = [&]<class P>(P) { return cigi::decode<P>(packet.bytes, message.format); };
+    const Asking asking = asking_of(message, arrival);
     switch (packet.id) {
         case cigi::EntityControl::kId:
-            return apply(as(cigi::EntityControl{}), message, arrival);
+            return apply(as(cigi::EntityControl{}), message, asking);
         case cigi::EntityPosition::kId:
-            return apply(as(cigi::EntityPosition{}), arrival);
+            return apply(as(cigi::EntityPosition{}), asking);
         case cigi::RateControl::kId:
             return apply(as(cigi::RateControl{}), arrival);
         case cigi::ViewControl::kId:
-            return apply(as(cigi::ViewControl{}));
+            return apply(as(cigi::ViewControl{}), asking);
         case cigi::ViewDefinition::kId:
             return apply(as(cigi::ViewDefinition{}));
         case cigi::CelestialSphereControl::kId:
             return apply(as(cigi::CelestialSphereControl{}), arrival);
         case cigi::AtmosphereControl::kId:
             return apply(as(cigi::AtmosphereControl{}));
+        case cigi::WeatherControl::kId:
+            return apply(as(cigi::WeatherControl{}), asking);
+        case cigi::ShortComponentControl::kId:
+            return apply(as(cigi::ShortComponentControl{}));
+        case cigi::SensorControl::kId:
+            return apply(as(cigi::SensorControl{}), asking);
+        case cigi::CollisionSegmentDefinition::kId:
+            return apply(as(cigi::CollisionSegmentDefinition{}));
         default:
             return;
     }
@@ -138,16 +151,17 @@ void Session::apply(const cigi::IgControl& packet) {
     }
 }
 
-bool Session::is_our_view(std::uint16_t view, std::uint8_t group) {
-    if (group != 0) return false;
+bool Session::is_our_view(std::uint16_t view) {
     if (!view_) view_ = view;
     return *view_ == view;
 }
 
-void Session::apply(const cigi::ViewControl& packet) {
-    if (!is_our_view(packet.view, packet.group)) return;
+void Session::apply(const cigi::ViewControl& packet, const Asking& asking) {
+    if (packet.group != 0 ? packet.group != view_group_ : !is_our_view(packet.view)) return;
     if (packet.entity != options_.ownship && state_.entities.find(packet.entity) == nullptr) {
         reject(Reject::view_of_unknown_entity);
+        warn(Warning::unknown_view_entity, asking, "view %d is on entity %d, which is unknown", int{packet.view},
+             int{packet.entity});
         return;
     }
     ViewMount mount = state_.mount.value_or(ViewMount{});
@@ -174,7 +188,8 @@ void Session::apply(const cigi::ViewControl& packet) {
 }
 
 void Session::apply(const cigi::ViewDefinition& packet) {
-    if (!is_our_view(packet.view, packet.group)) return;
+    if (!is_our_view(packet.view)) return;
+    view_group_ = packet.group;
     Window window = window_;
     bool sound = true;
     const auto set = [&sound](bool enabled, std::optional<Degrees>& angle, float wire) {

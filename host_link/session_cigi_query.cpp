@@ -58,16 +58,6 @@ std::optional<SurveyHit> Session::plumb(const GeodeticPosition& below) {
     return options_.surveyor({level.position, down, 0.0, top.altitude + kBelowAll});
 }
 
-template <class P>
-void Session::respond(const P& response, cigi::Format format) {
-    if (response_count_ == responses_.size()) {
-        ++statistics_.answers_dropped;
-        return;
-    }
-    Response& place = responses_[response_count_++];
-    place.size = cigi::encode(response, format, place.bytes);
-}
-
 void Session::answer(const cigi::HatHotRequest& request, const Asking& asking) {
     const auto point = point_of(request.point, request.entity_coordinates, request.entity, asking.arrival);
     if (!point) reject(Reject::out_of_range);

@@ -11,8 +11,6 @@ namespace quadrig::host {
 
 namespace {
 
-// Metres from a parent to what still hangs on it.
-constexpr double kFarthestOffset = 1e6;
 // m/s and degrees a second: more is garbled.
 constexpr double kFastest = 1e5;
 
@@ -53,7 +51,7 @@ Entity* Session::entity_for(std::uint16_t id) {
     return &*place;
 }
 
-void Session::apply(const cigi::EntityControl& packet, const cigi::Message& message, Time arrival) {
+void Session::apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking) {
     const bool ownship = packet.entity == options_.ownship;
     // Smoothing is on only where both the message and the entity ask for it; before 3.3 neither could.
     if (ownship && (message.ig_control.minor_version >= 3 || message.format.version == cigi::Version::four))
@@ -67,19 +65,25 @@ void Session::apply(const cigi::EntityControl& packet, const cigi::Message& mess
         --list.count;
         return;
     }
-    if (Entity* entity = ownship ? nullptr : entity_for(packet.entity)) {
+    Entity* entity = entity_for(packet.entity);
+    if (entity != nullptr) entity->detects_collisions = packet.collision_detection;
+    if (entity != nullptr && !ownship) {
         entity->type = packet.extended_type ? std::nullopt : std::optional(packet.type);
         entity->active = packet.state == cigi::EntityState::active;
+        // Type 0 is nothing to be seen by convention.
+        const bool known = std::ranges::find(options_.entity_types, int{packet.type}) != options_.entity_types.end();
+        if (entity->active && (packet.extended_type || (packet.type != 0 && !known)))
+            warn(Warning::unknown_type, asking, "no model for entity %d, type %d", int{packet.entity},
+                 int{packet.type});
         const auto active = std::ranges::count_if(
             state_.entities, [&](const Entity& e) { return e.active && e.id != options_.ownship; });
         statistics_.other_entities = std::max(statistics_.other_entities, static_cast<std::uint64_t>(active));
     }
-    if (message.format.version == cigi::Version::three)
-        apply(static_cast<const cigi::EntityPosition&>(packet), arrival);
+    if (message.format.version == cigi::Version::three) apply(static_cast<const cigi::EntityPosition&>(packet), asking);
 }
 
-void Session::apply(const cigi::EntityPosition& packet, Time arrival) {
-    if (packet.attached) return attach(packet, arrival);
+void Session::apply(const cigi::EntityPosition& packet, const Asking& asking) {
+    if (packet.attached) return attach(packet, asking);
     const GeodeticPose pose{{{packet.latitude}, {packet.longitude}, packet.altitude}, attitude_of(packet)};
     if (packet.entity == options_.ownship) {
         ownship_pose_ = pose;
@@ -97,7 +101,7 @@ void Session::apply(const cigi::EntityPosition& packet, Time arrival) {
     entity->pose = scene_frame_.pose(position, pose.attitude);
     entity->parent.reset();
     entity->placed = true;
-    entity->since = arrival;
+    entity->since = asking.arrival;
 }
 
 void Session::place_ownship(const PoseSample& sample) {
@@ -109,7 +113,7 @@ void Session::place_ownship(const PoseSample& sample) {
     entity->since = sample.arrival;
 }
 
-void Session::attach(const cigi::EntityPosition& packet, Time arrival) {
+void Session::attach(const cigi::EntityPosition& packet, const Asking& asking) {
     const Attitude attitude = attitude_of(packet);
     if (!below(kFarthestOffset, {packet.latitude, packet.longitude, packet.altitude}) ||
         !in_range(GeodeticPosition{}, attitude)) {
@@ -118,6 +122,8 @@ void Session::attach(const cigi::EntityPosition& packet, Time arrival) {
     }
     if (!may_attach(state_.entities, packet.entity, packet.parent)) {
         reject(Reject::bad_attachment);
+        warn(Warning::bad_attachment, asking, "entity %d cannot hang on entity %d: loop, or too deep",
+             int{packet.entity}, int{packet.parent});
         return;
     }
     Entity* entity = entity_for(packet.entity);
@@ -126,7 +132,7 @@ void Session::attach(const cigi::EntityPosition& packet, Time arrival) {
     entity->pose = {{from_wire(packet.latitude, packet.longitude, packet.altitude)}, eye_from_scene_rotation(attitude)};
     entity->parent = packet.parent;
     entity->placed = true;
-    entity->since = arrival;
+    entity->since = asking.arrival;
 }
 
 void Session::apply(const cigi::RateControl& packet, Time arrival) {

@@ -11,6 +11,10 @@ namespace {
 
 // The haze model divides by the visibility: zero is shown as this.
 constexpr double kLeastVisibility = 1.0;
+// Metres about the ellipsoid where a layer of weather may begin.
+constexpr double kLowestBase = -12e3, kHighestBase = 1e5;
+// Of the system's class: what a host may switch on and off.
+constexpr std::uint16_t kTestPatternComponent = 1, kOverlayComponent = 2;
 
 std::chrono::year_month_day calendar_date(std::uint32_t mmddyyyy) {
     using namespace std::chrono;
@@ -60,6 +64,28 @@ void Session::apply(const cigi::AtmosphereControl& packet) {
         return;
     }
     state_.visibility = std::max<double>(packet.visibility, kLeastVisibility);
+}
+
+void Session::apply(const cigi::WeatherControl& packet, const Asking& asking) {
+    // Rain and its like, and weather in places of its own, are not in the image model.
+    if (packet.layer >= state_.weather.size() || packet.scope != cigi::WeatherScope::global) return;
+    const auto within = [](double value, double lowest, double highest) { return value >= lowest && value <= highest; };
+    if (!within(packet.base, kLowestBase, kHighestBase) || !within(packet.thickness, 0.0, kHighestBase) ||
+        !within(packet.coverage, 0.0, 100.0) || !(packet.visibility >= 0.0F) || !std::isfinite(packet.visibility)) {
+        reject(Reject::out_of_range);
+        return;
+    }
+    if (packet.layer > options_.cloud_decks)
+        warn(Warning::no_such_deck, asking, "the scene has no cloud deck %d", int{packet.layer});
+    const double base = packet.base + options_.altitude_offset - options_.scene_origin.altitude;
+    state_.weather[packet.layer] = WeatherLayer{packet.enable, base, base + packet.thickness, 0.01 * packet.coverage,
+                                                std::max<double>(packet.visibility, kLeastVisibility)};
+}
+
+void Session::apply(const cigi::ShortComponentControl& packet) {
+    if (packet.component_class != cigi::ShortComponentControl::kSystem) return;
+    if (packet.component == kTestPatternComponent) state_.test_pattern = packet.state != 0;
+    if (packet.component == kOverlayComponent) state_.overlay = packet.state != 0;
 }
 
 }  // namespace quadrig::host

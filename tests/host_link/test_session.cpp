@@ -308,9 +308,13 @@ TEST_CASE("In steady state a datagram costs no allocation") {
     Session cigi(at_home()), flightgear(at_home(Protocol::flightgear_fdm));
     std::vector<Bytes> messages;
     for (std::uint32_t i = 0; i < 200; ++i)
-        messages.push_back(
-            message(ByteOrder::big, ig_control(i), ownship(), cigi::ViewControl{}, cigi::AtmosphereControl{}) +
-            raw_packet(99, 8));
+        messages.push_back(message(ByteOrder::big, ig_control(i), ownship(), cigi::ViewControl{},
+                                   cigi::AtmosphereControl{}, cigi::RateControl{.entity = 4, .x = 1.0F},
+                                   cigi::WeatherControl{.layer = 1},
+                                   cigi::ShortComponentControl{.component = 1, .component_class = 13},
+                                   cigi::SensorControl{.on = true, .track_mode = 1},
+                                   cigi::CollisionSegmentDefinition{.enable = true, .to = {1.0F, 0.0F, 0.0F}}) +
+                           raw_packet(99, 8));
     const Bytes packet = fdm(47.0);
     allocations = 0;
     counting_allocations = true;

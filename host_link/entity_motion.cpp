@@ -1,5 +1,6 @@
 #include "host_link/entity_motion.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -39,7 +40,7 @@ ScenePose on(const ScenePose& parent, const ScenePose& child) {
 
 }  // namespace
 
-ScenePose moved_on(const Entity& entity, Time at) {
+ScenePose predicted(const Entity& entity, Time at) {
     const Rates& rates = entity.rates;
     if (rates.zero()) return entity.pose;
     const double seconds = std::chrono::duration<double>(at - entity.since).count();
@@ -53,6 +54,31 @@ ScenePose moved_on(const Entity& entity, Time at) {
     const Turned way = turned(scene_from_level * rates.turn, seconds);
     return {{entity.pose.position.metres + seconds * (scene_from_level * rates.velocity)},
             glm::transpose(way.rotation * scene_from_body)};
+}
+
+ScenePose moved_on(const Entity& entity, Time at) {
+    ScenePose pose = predicted(entity, at);
+    const HeldBack& held = entity.held_back;
+    const Time gone = std::max(at - held.since, Time(0));
+    if (gone >= held.lasts) return pose;
+    const double part = 1.0 - std::chrono::duration<double>(gone) / std::chrono::duration<double>(held.lasts);
+    pose.position.metres += part * held.way;
+    pose.eye_from_scene = turned(part * held.turn, 1.0).rotation * pose.eye_from_scene;
+    return pose;
+}
+
+HeldBack held_back(const Entity& entity, const ScenePose& pose, Time now) {
+    const Time apart = now - entity.since;
+    if (!entity.smoothing || apart <= Time(0) || apart > kLongestGap) return {};
+    const ScenePose shown = moved_on(entity, now);
+    const glm::dvec3 way = shown.position.metres - pose.position.metres;
+    if (glm::length(way) > kFastestMotion * std::chrono::duration<double>(apart).count()) return {};
+    // The rotation that leads from the new attitude to what was shown, as axis times angle.
+    const glm::dmat3 turn = shown.eye_from_scene * glm::transpose(pose.eye_from_scene);
+    const glm::dvec3 axis = 0.5 * glm::dvec3(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]);
+    const double sine = glm::length(axis), cosine = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
+    const double scale = sine > 1e-12 ? std::atan2(sine, cosine) / sine : 1.0;
+    return {way, scale * axis, now, std::min(apart, kLetIn)};
 }
 
 std::optional<ScenePose> pose_of(const EntityList& entities, std::uint16_t id, Time at,

@@ -56,6 +56,13 @@ struct Rates {
     [[nodiscard]] bool zero() const { return velocity == glm::dvec3(0.0) && turn == glm::dvec3(0.0); }
 };
 
+/// What smoothing still holds back of an entity's newest pose: all of it at `since`, nothing once it `lasts` no longer.
+struct HeldBack {
+    glm::dvec3 way{0.0};   ///< m, in the axes that the pose is in: from the new pose to what was shown
+    glm::dvec3 turn{0.0};  ///< rad about an axis of the new pose's own, right-handed
+    Time since{}, lasts{};
+};
+
 /// An entity as the host's packets have it, the ownship included.
 struct Entity {
     std::uint16_t id = 0;
@@ -68,6 +75,8 @@ struct Entity {
     glm::dmat3 level_from_scene{1.0};  ///< level axes there; of an attached entity its parent's
     Rates rates;
     Time since{};
+    bool smoothing = false;
+    HeldBack held_back;
 };
 
 /// The entities that a host has named, in the order in which it did. A plain value.

@@ -24,6 +24,17 @@ bool below(double limit, std::initializer_list<double> values) {
 
 Attitude attitude_of(const cigi::EntityPosition& packet) { return {{packet.yaw}, {packet.pitch}, {packet.roll}}; }
 
+void put(Entity& entity, const ScenePose& pose, const glm::dmat3& level_from_scene, std::optional<std::uint16_t> parent,
+         Time arrival) {
+    const bool comparable = entity.placed && entity.parent == parent;
+    entity.held_back = comparable ? held_back(entity, pose, arrival) : HeldBack{};
+    entity.pose = pose;
+    entity.level_from_scene = level_from_scene;
+    entity.parent = parent;
+    entity.placed = true;
+    entity.since = arrival;
+}
+
 }  // namespace
 
 Entity* Session::entity_for(std::uint16_t id) {
@@ -67,6 +78,7 @@ void Session::apply(const cigi::EntityControl& packet, const cigi::Message& mess
     }
     Entity* entity = entity_for(packet.entity);
     if (entity != nullptr) entity->detects_collisions = packet.collision_detection;
+    if (entity != nullptr) entity->smoothing = message.ig_control.smoothing && packet.smoothing;
     if (entity != nullptr && !ownship) {
         entity->type = packet.extended_type ? std::nullopt : std::optional(packet.type);
         entity->active = packet.state == cigi::EntityState::active;
@@ -97,20 +109,17 @@ void Session::apply(const cigi::EntityPosition& packet, const Asking& asking) {
     }
     Entity* entity = entity_for(packet.entity);
     if (entity == nullptr) return;
-    entity->level_from_scene = scene_frame_.pose(position, {}).eye_from_scene;
-    entity->pose = scene_frame_.pose(position, pose.attitude);
-    entity->parent.reset();
-    entity->placed = true;
-    entity->since = asking.arrival;
+    const glm::dmat3 level_from_scene = scene_frame_.pose(position, {}).eye_from_scene;
+    put(*entity, scene_frame_.pose(position, pose.attitude), level_from_scene, std::nullopt, asking.arrival);
 }
 
 void Session::place_ownship(const PoseSample& sample) {
     Entity* entity = entity_for(options_.ownship);
-    entity->level_from_scene = glm::transpose(eye_from_scene_rotation(sample.attitude)) * sample.pose.eye_from_scene;
-    entity->pose = sample.pose;
-    entity->parent.reset();
-    entity->placed = true;
-    entity->since = sample.arrival;
+    const glm::dmat3 level_from_scene =
+        glm::transpose(eye_from_scene_rotation(sample.attitude)) * sample.pose.eye_from_scene;
+    // It is smoothed with the samples before and after it, and not here.
+    entity->smoothing = false;
+    put(*entity, sample.pose, level_from_scene, std::nullopt, sample.arrival);
 }
 
 void Session::attach(const cigi::EntityPosition& packet, const Asking& asking) {
@@ -128,11 +137,8 @@ void Session::attach(const cigi::EntityPosition& packet, const Asking& asking) {
     }
     Entity* entity = entity_for(packet.entity);
     if (entity == nullptr) return;
-    entity->level_from_scene = glm::dmat3(1.0);
-    entity->pose = {{from_wire(packet.latitude, packet.longitude, packet.altitude)}, eye_from_scene_rotation(attitude)};
-    entity->parent = packet.parent;
-    entity->placed = true;
-    entity->since = asking.arrival;
+    const glm::dvec3 offset = from_wire(packet.latitude, packet.longitude, packet.altitude);
+    put(*entity, {{offset}, eye_from_scene_rotation(attitude)}, glm::dmat3(1.0), packet.parent, asking.arrival);
 }
 
 void Session::apply(const cigi::RateControl& packet, Time arrival) {
@@ -144,7 +150,7 @@ void Session::apply(const cigi::RateControl& packet, Time arrival) {
     Entity* entity = entity_for(packet.entity);
     if (entity == nullptr) return;
     // Where the rates till now have brought it.
-    entity->pose = moved_on(*entity, arrival);
+    entity->pose = predicted(*entity, arrival);
     entity->since = arrival;
     const auto turn = from_wire(packet.roll, packet.pitch, packet.yaw);
     entity->rates = {from_wire(packet.x, packet.y, packet.z), glm::radians(turn), packet.local};

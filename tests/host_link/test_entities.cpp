@@ -167,6 +167,55 @@ TEST_CASE("Rates in an entity's own axes fly it as many small steps would") {
     }
 }
 
+TEST_CASE("A smoothed entity never jumps: a new packet is let in evenly, and then holds") {
+    const std::uint64_t seed = std::random_device{}();
+    INFO("seed " << seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Host host;
+    auto other = entity(7);
+    other.smoothing = true;
+    auto rates = cigi::RateControl{.entity = 7, .x = 50.0F, .y = 5.0F, .yaw = 10.0F};
+    auto ig = ig_control(0);
+    ig.smoothing = true;
+    host.now = 1s;
+    host.session.accept(message(ByteOrder::big, ig, other, rates), host.now);
+    for (int i = 1; i < 200; ++i) {
+        host.now += Time(std::chrono::milliseconds(20 + static_cast<int>(random() % 300)));
+        const ScenePose before = *host.pose(7, host.now);
+        ig.host_frame = static_cast<std::uint32_t>(i);
+        other.latitude = 47.26 + 1e-5 * i + 1e-5 * unit(random);
+        other.yaw = static_cast<float>(i + 5.0 * unit(random));
+        other.pitch = static_cast<float>(5.0 * unit(random));
+        rates.yaw = static_cast<float>(20.0 * unit(random));
+        host.session.accept(message(ByteOrder::big, ig, other, rates), host.now);
+        CHECK(apart(*host.pose(7, host.now), before) < 1e-8);
+        CHECK(turned(*host.pose(7, host.now), before) < 1e-8);
+        const Entity& now = *host.entities().find(7);
+        CHECK(now.held_back.lasts <= kLetIn);
+        const Time in = host.now + now.held_back.lasts, half = host.now + now.held_back.lasts / 2;
+        CHECK(apart(*host.pose(7, in), predicted(now, in)) < 1e-9);
+        CHECK(turned(*host.pose(7, in), predicted(now, in)) < 1e-9);
+        CHECK(apart(*host.pose(7, half), predicted(now, half)) ==
+              Approx(0.5 * glm::length(now.held_back.way)).margin(1e-8));
+    }
+    // Far and late ones are jumps, and so is everything where smoothing is not asked for.
+    const auto jumps = [&](double latitude, Time later, bool smooth) {
+        host.now += later;
+        ++ig.host_frame;
+        ig.smoothing = smooth;
+        other.latitude = latitude;
+        host.session.accept(message(ByteOrder::big, ig, other), host.now);
+        const Entity& now = *host.entities().find(7);
+        return apart(*host.pose(7, host.now), now.pose) == 0.0;
+    };
+    CHECK_FALSE(jumps(47.263, 50ms, true));
+    CHECK(jumps(47.3, 50ms, true));
+    CHECK(jumps(47.3001, 1100ms, true));
+    CHECK_FALSE(jumps(47.3002, 50ms, true));
+    CHECK(jumps(47.3003, 50ms, false));
+}
+
 TEST_CASE("Roll, pitch and yaw rates of the wire turn right wing down, nose up and to the right") {
     const auto after = [](cigi::RateControl rates) {
         Host host;

@@ -3,19 +3,46 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "frame_scheduler/host_view.h"
+#include "host_link/entity_motion.h"
 #include "host_link/sun_position.h"
 
 namespace quadrig::appliance {
 
 std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time frame_time) {
-    const std::optional<ScenePose> body = smoother_.pose_at(state, frame_time);
+    shown_time_ = smoother_.shown_time(state, frame_time);
+    ownship_.reset();
+    if (const auto pose = smoother_.pose_at(state, frame_time)) ownship_.emplace(state.ownship, *pose);
+    const auto body_of = [&](std::uint16_t id) { return host::pose_of(state.entities, id, shown_time_, ownship_); };
+    std::optional<ScenePose> body = state.view_entity ? body_of(*state.view_entity) : std::nullopt;
+    if (!body) body = body_of(state.ownship);
     if (!body) return std::nullopt;
     const ImagePlane plane = surroundings_.ignore_host_window
                                  ? surroundings_.channel
                                  : scheduler::host_image_plane(state.window, surroundings_.channel);
-    return scheduler::host_view(*body, state.mount, plane);
+    const View view = scheduler::host_view(*body, state.mount, plane);
+    eye_height_ = view.eye.metres.z;
+    return view;
+}
+
+void HostEye::add_weather(const host::HostState& state, Environment& environment) {
+    decks_.fill(std::nullopt);
+    for (std::size_t i = 0; i < state.weather.size(); ++i) {
+        const auto& layer = state.weather[i];
+        if (!layer) continue;
+        const bool fog = i == 0;
+        const bool inside = layer->holds(eye_height_) && layer->coverage > 0.0;
+        if (inside) {
+            const auto clear = environment.visibility ? environment.visibility : surroundings_.visibility;
+            environment.visibility = std::min(layer->visibility, clear.value_or(layer->visibility));
+        }
+        if (!fog)
+            decks_[i - 1] = DeckState{layer->enabled && layer->coverage > 0.0 && !inside,
+                                      eye_height_ > layer->top ? layer->top : layer->base, layer->coverage};
+    }
+    environment.decks = decks_;
 }
 
 Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed,
@@ -23,6 +50,7 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
     Environment environment;
     environment.seconds = std::chrono::duration<double>(elapsed).count();
     environment.visibility = state.visibility;
+    add_weather(state, environment);
     if (state.utc) {
         const host::SunPosition sun = host::sun_position(*state.utc, surroundings_.origin);
         environment.sun = Sun{sun.azimuth, sun.elevation, surroundings_.sun.ambient};
@@ -30,10 +58,12 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
     std::ranges::copy(others, bodies_.begin());
     std::size_t count = others.size();
     const std::vector<int>& types = surroundings_.entity_types;
-    for (std::size_t i = 0; i < state.entity_count; ++i) {
-        const host::Entity& entity = state.entities[i];
-        const auto model = std::find(types.begin(), types.end(), entity.type);
-        if (model != types.end()) bodies_[count++] = {static_cast<std::uint32_t>(model - types.begin()), entity.pose};
+    for (const host::Entity& entity : state.entities) {
+        if (entity.id == state.ownship || !entity.type || !is_shown(state.entities, entity)) continue;
+        const auto model = std::find(types.begin(), types.end(), *entity.type);
+        if (model == types.end()) continue;
+        const auto pose = host::pose_of(state.entities, entity.id, shown_time_, ownship_);
+        if (pose) bodies_[count++] = {static_cast<std::uint32_t>(model - types.begin()), *pose};
     }
     environment.bodies = {bodies_.data(), count};
     return environment;
@@ -43,6 +73,16 @@ std::optional<scheduler::Time> HostEye::fresh_arrival(const host::HostState& sta
     if (!state.pose || state.pose->sequence == shown_) return std::nullopt;
     shown_ = state.pose->sequence;
     return state.pose->arrival;
+}
+
+HostEye::Surroundings surroundings_of(const Scene& scene, const ImagePlane& channel, bool ignore_host_window,
+                                      std::vector<int> entity_types) {
+    return {channel,
+            ignore_host_window,
+            scene.origin,
+            scene.sun,
+            scene.haze ? std::optional(scene.haze->visibility) : std::nullopt,
+            std::move(entity_types)};
 }
 
 host::ViewWindow window_of(const ImagePlane& plane) {

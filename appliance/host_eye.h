@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "config/appliance_file.h"
@@ -25,14 +26,20 @@ class HostEye {
         bool ignore_host_window = false;
         GeodeticPosition origin;
         Sun sun;
-        std::vector<int> entity_types;  ///< of the scene's models, in their order
+        std::optional<double> visibility;  ///< m; absent: no haze
+        std::vector<int> entity_types;     ///< of the scene's models, in their order
     };
     explicit HostEye(const Surroundings& surroundings) : surroundings_(surroundings) {}
 
     /// The view for a frame due at `frame_time`, by the clock of the state's arrivals. To be called once a frame with
-    /// the state latched for it. Nothing before the host's first pose.
+    /// the state latched for it. Nothing before the host's first pose. The eye rides on the entity that the host has
+    /// put it on, as long as that is there, and else on the ownship.
     std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
-    /// `elapsed`: the scene's time. `others`: models that this host does not place, config::kMostEntityModels at most.
+    /// Weather: within a layer the visibility is the layer's, where that is less; its deck is at the layer's base, seen
+    /// from above at its top, and from within not there.
+    ///
+    /// For the frame that view() was asked about last. `elapsed`: the scene's time. `others`: models
+    /// that this host does not place, config::kMostEntityModels at most.
     /// What the environment refers to is good until the next call.
     [[nodiscard]] Environment environment(const host::HostState& state, scheduler::Time elapsed,
                                           std::span<const PlacedModel> others = {});
@@ -40,11 +47,21 @@ class HostEye {
     std::optional<scheduler::Time> fresh_arrival(const host::HostState& state);
 
   private:
+    void add_weather(const host::HostState& state, Environment& environment);
+
     Surroundings surroundings_;
-    std::array<PlacedModel, config::kMostEntityModels + host::kMostShownEntities> bodies_;
+    std::array<PlacedModel, config::kMostEntityModels + host::EntityList::kMost> bodies_;
+    std::array<std::optional<DeckState>, std::tuple_size_v<decltype(host::HostState::weather)> - 1> decks_;
     scheduler::MotionSmoother smoother_;
+    /// Of the frame that view() was asked about last.
+    scheduler::Time shown_time_{};
+    std::optional<std::pair<std::uint16_t, ScenePose>> ownship_;
+    double eye_height_ = 0.0;  ///< m, scene space
     std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
 };
+
+HostEye::Surroundings surroundings_of(const Scene& scene, const ImagePlane& channel, bool ignore_host_window,
+                                      std::vector<int> entity_types);
 
 /// Half angles of an image plane, which a host's incomplete View Definition is filled up from.
 host::ViewWindow window_of(const ImagePlane& plane);

@@ -3,13 +3,10 @@
 #include <chrono>
 #include <utility>
 
+#include "display/test_pattern.h"
+
 namespace quadrig::appliance {
 namespace {
-
-std::optional<display::Overlay> overlay_for(const PictureSettings& settings) {
-    if (!settings.overlay) return std::nullopt;
-    return std::optional<display::Overlay>(std::in_place, settings.size.width, settings.size.height);
-}
 
 std::optional<scheduler::BudgetControl> budget_for(const PictureSettings& settings) {
     if (!settings.automatic) return std::nullopt;
@@ -24,7 +21,7 @@ Painter::Painter(Scene scene, const PictureSettings& settings)
     : settings_(settings),
       budget_(budget_for(settings)),
       frames_at_step_(settings.ladder.size()),
-      overlay_(overlay_for(settings)),
+      overlay_(settings.size.width, settings.size.height),
       channel_(settings.size.width, settings.size.height),
       generator_(std::move(scene), settings.threads) {}
 
@@ -32,27 +29,30 @@ ImagePlane Painter::image_plane() const {
     return ImagePlane::symmetric(settings_.size.width, settings_.size.height, settings_.fov);
 }
 
-StageTimes Painter::paint(const View& view, const Environment& environment, std::uint64_t frame_number) {
+StageTimes Painter::paint(const View& view, const Environment& environment, std::uint64_t frame_number,
+                          const Extras& extras) {
     const std::size_t step = budget_ ? budget_->step() : settings_.step;
     const auto begun = std::chrono::steady_clock::now();
-    const StageTimes times = draw(view, environment, frame_number, step);
+    const StageTimes times = draw(view, environment, frame_number, step, extras);
     ++frames_at_step_[step];
     if (budget_) budget_->frame_took(std::chrono::steady_clock::now() - begun);
     return times;
 }
 
-StageTimes Painter::draw(const View& view, const Environment& environment, std::uint64_t frame_number,
-                         std::size_t step) {
-    StageTimes times = generator_.render(view, environment, settings_.ladder[step].quality, image());
+StageTimes Painter::draw(const View& view, const Environment& environment, std::uint64_t frame_number, std::size_t step,
+                         const Extras& extras) {
+    StageTimes times{};
+    if (!extras.test_pattern) times = generator_.render(view, environment, settings_.ladder[step].quality, image());
     const auto begun = std::chrono::steady_clock::now();
-    if (overlay_) overlay_->lay_over(image(), frame_number);
+    if (extras.test_pattern) display::draw_test_pattern(image());
+    if (extras.overlay.value_or(settings_.overlay)) overlay_.lay_over(image(), frame_number);
     times[static_cast<std::size_t>(Stage::present)] += std::chrono::steady_clock::now() - begun;
     return times;
 }
 
 void Painter::warm_up(const View& view) {
     constexpr int kWarmUpFrames = 2;
-    for (int i = 0; i < kWarmUpFrames; ++i) draw(view, {}, 0, settings_.step);
+    for (int i = 0; i < kWarmUpFrames; ++i) draw(view, {}, 0, settings_.step, {});
 }
 
 }  // namespace quadrig::appliance

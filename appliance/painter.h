@@ -18,7 +18,16 @@ class Painter {
     Painter(Scene scene, const PictureSettings& settings);
 
     /// Leaves a whole picture in image(). Allocates nothing after the first frames. The stage `present` is the overlay.
-    StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number);
+    /// A test pattern comes in the scene's place.
+    struct Extras {
+        bool test_pattern = false;
+        std::optional<bool> overlay;  ///< absent: as the settings say
+    };
+    StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number) {
+        return paint(view, environment, frame_number, {});
+    }
+    StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number,
+                     const Extras& extras);
     /// Pictures painted with each step of the quality ladder.
     [[nodiscard]] const std::vector<std::uint64_t>& frames_at_step() const { return frames_at_step_; }
     /// Draws a view as often as it takes for memory to be there.
@@ -31,12 +40,13 @@ class Painter {
     [[nodiscard]] ImagePlane image_plane() const;
 
   private:
-    StageTimes draw(const View& view, const Environment& environment, std::uint64_t frame_number, std::size_t step);
+    StageTimes draw(const View& view, const Environment& environment, std::uint64_t frame_number, std::size_t step,
+                    const Extras& extras);
 
     PictureSettings settings_;
     std::optional<scheduler::BudgetControl> budget_;
     std::vector<std::uint64_t> frames_at_step_;
-    std::optional<display::Overlay> overlay_;
+    display::Overlay overlay_;
     display::Channel channel_;
     ImageGenerator generator_;
 };

@@ -74,7 +74,8 @@ scheduler::FrameHooks hooks_for(const ShownAt& at, HostEye& eye, Painter& painte
             drawn.stages = painter.paint(standby, environment, shown.number);
             return drawn;
         }
-        drawn.stages = painter.paint(*view, eye.environment(*shown.state, elapsed), shown.number);
+        drawn.stages = painter.paint(*view, eye.environment(*shown.state, elapsed), shown.number,
+                                     {shown.state->test_pattern, shown.state->overlay});
         if (const auto arrival = eye.fresh_arrival(*shown.state))
             drawn.input_age = shown.time + (tick.started - tick.due) - *arrival;
         return drawn;
@@ -114,6 +115,8 @@ void replay(const ReplayOptions& options) {
         options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
     host::SessionOptions session = session_options(link, scene.origin);
     session.default_window = window_of(painter.image_plane());
+    session.entity_types = entity_types(options.settings);
+    session.cloud_decks = scene.cloud_decks.size();
     std::optional<RunAgain> again;
     std::optional<Playback> playback;
     ShownAt shown_at;
@@ -132,7 +135,7 @@ void replay(const ReplayOptions& options) {
         };
     }
     HostEye eye(
-        {painter.image_plane(), options.ignore_host_window, scene.origin, scene.sun, entity_types(options.settings)});
+        surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(options.settings)));
 
     const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
                                        : frames_to_draw(options, settings.rate, *playback);
@@ -167,7 +170,7 @@ void replay(const ReplayOptions& options) {
 }
 
 constexpr const char* kReplayNotes =
-    "The recording is a pcap or pcapng file of CIGI 3 or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
+    "The recording is a pcap or pcapng file of CIGI or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
     "a\n"
     "log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ "
     "seconds\n"

@@ -74,8 +74,8 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
             drawn.stages = painter.paint(standby, environment, tick.number);
             return drawn;
         }
-        drawn.stages =
-            painter.paint(*host->view, host->eye->environment(host->state, tick.elapsed, others), tick.number);
+        drawn.stages = painter.paint(*host->view, host->eye->environment(host->state, tick.elapsed, others),
+                                     tick.number, {host->state.test_pattern, host->state.overlay});
         if (const auto arrival = host->eye->fresh_arrival(host->state)) drawn.input_age = tick.started - *arrival;
         return drawn;
     };
@@ -138,10 +138,12 @@ void run(const LiveOptions& options) {
             host::Recorder::Settings{options.record,
                                      host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
     for (const auto& host : hosts) {
-        host->eye.emplace(HostEye::Surroundings{painter.image_plane(), options.ignore_host_window, scene.origin,
-                                                scene.sun, entity_types(given)});
+        host->eye.emplace(
+            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)));
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
+        session.entity_types = entity_types(given);
+        session.cloud_decks = scene.cloud_decks.size();
         if (survey) session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
         host->link->start(session);
     }

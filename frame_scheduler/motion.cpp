@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "host_link/entity_motion.h"
+
 namespace quadrig::scheduler {
 
 ScenePose pose_between(const ScenePose& earlier, Time earlier_time, const ScenePose& newest, Time newest_time,
@@ -31,15 +33,21 @@ std::optional<ScenePose> MotionSmoother::pose_at(const host::HostState& state, T
     clock_.observe(state);
     const ScenePose& newest = state.pose->pose;
     const std::optional<SampleClock::PairTimes> times = clock_.times(state);
-    if (!state.smoothing || !state.earlier || !times) return newest;
+    const host::Entity* own = state.entities.find(state.ownship);
+    const bool goes_on = own != nullptr && !own->rates.zero();
+    const auto as_it_came = [&] { return goes_on ? moved_on(*own, shown_time(state, frame_time)) : newest; };
+    if (!state.smoothing || !state.earlier || !times) return as_it_came();
 
     const ScenePose& earlier = state.earlier->pose;
     const Time apart = times->newest - times->earlier;
     const double way = glm::distance(newest.position.metres, earlier.position.metres);
     if (apart > settings_.longest_gap || way > settings_.fastest * std::chrono::duration<double>(apart).count())
-        return newest;
+        return as_it_came();
+    const Time shown = shown_time(state, frame_time);
+    // The sample's own time is before its arrival, from which on the rates count.
+    if (goes_on && shown > times->newest) return moved_on(*own, shown + (state.pose->arrival - times->newest));
     const Time reach = apart + settings_.longest_extrapolation;
-    const Time at = std::clamp(frame_time - settings_.delay, times->earlier - reach, times->newest + reach);
+    const Time at = std::clamp(shown, times->earlier - reach, times->newest + reach);
     return pose_between(earlier, times->earlier, newest, times->newest, at);
 }
 

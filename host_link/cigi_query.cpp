@@ -4,124 +4,114 @@
 
 namespace quadrig::host::cigi {
 
-namespace {
-
-void triple(auto& wire, std::size_t at, auto& values) {
-    for (std::size_t i = 0; i < 3; ++i) wire.number(at + 8 * i, values[i]);
-}
-
 void layout(auto& wire, Is<HatHotRequest> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 2, p.kind);
-    wire.bits(4, 2, 1, p.entity_coordinates);
-    wire.number(5, p.period);
-    wire.number(6, p.entity);
-    triple(wire, 8, p.point);
+    wire.number(2, 4, p.request);
+    wire.bits({4, 0}, {8, 0}, 2, p.kind);
+    wire.bits({4, 2}, {8, 2}, 1, p.entity_coordinates);
+    wire.number(5, 9, p.period);
+    wire.number(6, 6, p.entity);
+    wire.numbers(8, 16, p.point);
 }
 
 void layout(auto& wire, Is<LosSegmentRequest> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.extended);
-    wire.bits(4, 1, 1, p.source_entity);
-    wire.bits(4, 2, 1, p.destination_entity);
-    wire.bits(4, 3, 1, p.response_entity);
-    wire.bits(4, 4, 1, p.destination_id_valid);
-    wire.number(5, p.alpha_threshold);
-    wire.number(6, p.entity);
-    triple(wire, 8, p.source);
-    triple(wire, 32, p.destination);
-    wire.number(56, p.material_mask);
-    wire.number(60, p.period);
-    wire.number(62, p.destination_id);
+    wire.number(2, 4, p.request);
+    wire.bits({4, 0}, {8, 0}, 1, p.extended);
+    wire.bits({4, 1}, {8, 1}, 1, p.source_entity);
+    wire.bits({4, 2}, {8, 2}, 1, p.destination_entity);
+    wire.bits({4, 3}, {8, 3}, 1, p.response_entity);
+    wire.bits({4, 4}, {8, 4}, 1, p.destination_id_valid);
+    wire.number(5, 9, p.alpha_threshold);
+    wire.number(6, 6, p.entity);
+    wire.numbers(8, 16, p.source);
+    wire.numbers(32, 40, p.destination);
+    wire.number(56, 64, p.material_mask);
+    wire.number(60, 12, p.period);
+    wire.number(62, 10, p.destination_id);
 }
 
 void layout(auto& wire, Is<LosVectorRequest> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.extended);
-    wire.bits(4, 1, 1, p.source_entity);
-    wire.bits(4, 2, 1, p.response_entity);
-    wire.number(5, p.alpha_threshold);
-    wire.number(6, p.entity);
-    wire.number(8, p.azimuth);
-    wire.number(12, p.elevation);
-    wire.number(16, p.least);
-    wire.number(20, p.most);
-    triple(wire, 24, p.source);
-    wire.number(48, p.material_mask);
-    wire.number(52, p.period);
+    wire.number(2, 4, p.request);
+    wire.bits({4, 0}, {8, 0}, 1, p.extended);
+    wire.bits({4, 1}, {8, 1}, 1, p.source_entity);
+    wire.bits({4, 2}, {8, 2}, 1, p.response_entity);
+    wire.number(5, 9, p.alpha_threshold);
+    wire.number(6, 6, p.entity);
+    wire.number(8, 16, p.azimuth);
+    wire.number(12, 20, p.elevation);
+    wire.number(16, 24, p.least);
+    wire.number(20, 28, p.most);
+    wire.numbers(24, 32, p.source);
+    wire.number(48, 56, p.material_mask);
+    wire.number(52, 10, p.period);
 }
 
 void layout(auto& wire, Is<HatHotResponse> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.valid);
-    wire.bits(4, 1, 1, p.of_terrain);
-    wire.bits(4, 4, 4, p.host_frame);
-    wire.number(8, p.height);
+    wire.number(2, 6, p.request);
+    wire.bits({4, 0}, {4, 0}, 1, p.valid);
+    wire.bits({4, 1}, {4, 1}, 1, p.of_terrain);
+    wire.bits({4, 4}, {4, 4}, 4, p.host_frame);
+    wire.number(8, 8, p.height);
 }
 
 void layout(auto& wire, Is<HatHotExtendedResponse> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.valid);
-    wire.bits(4, 4, 4, p.host_frame);
-    wire.number(8, p.above_terrain);
-    wire.number(16, p.of_terrain);
-    wire.number(24, p.material);
-    wire.number(28, p.normal_azimuth);
-    wire.number(32, p.normal_elevation);
+    wire.number(2, 6, p.request);
+    wire.bits({4, 0}, {4, 0}, 1, p.valid);
+    wire.bits({4, 4}, {4, 4}, 4, p.host_frame);
+    wire.number(8, 8, p.above_terrain);
+    wire.number(16, 16, p.of_terrain);
+    wire.number(24, 24, p.material);
+    wire.number(28, 28, p.normal_azimuth);
+    wire.number(32, 32, p.normal_elevation);
 }
 
 void layout(auto& wire, Is<LosResponse> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.valid);
-    wire.bits(4, 1, 1, p.entity_valid);
-    wire.bits(4, 2, 1, p.visible);
-    wire.bits(4, 4, 4, p.host_frame);
-    wire.number(5, p.count);
-    wire.number(6, p.entity);
-    wire.number(8, p.range);
+    wire.number(2, 4, p.request);
+    wire.bits({4, 0}, {8, 0}, 1, p.valid);
+    wire.bits({4, 1}, {8, 1}, 1, p.entity_valid);
+    wire.bits({4, 2}, {8, 2}, 1, p.visible);
+    wire.bits({4, 4}, {8, 4}, 4, p.host_frame);
+    wire.number(5, 9, p.count);
+    wire.number(6, 6, p.entity);
+    wire.number(8, 16, p.range);
 }
 
 void layout(auto& wire, Is<LosExtendedResponse> auto& p) {
-    wire.number(2, p.request);
-    wire.bits(4, 0, 1, p.valid);
-    wire.bits(4, 1, 1, p.entity_valid);
-    wire.bits(4, 2, 1, p.range_valid);
-    wire.bits(4, 3, 1, p.visible);
-    wire.bits(4, 4, 4, p.host_frame);
-    wire.number(5, p.count);
-    wire.number(6, p.entity);
-    wire.number(8, p.range);
-    triple(wire, 16, p.point);
-    for (std::size_t i = 0; i < p.rgba.size(); ++i) wire.number(40 + i, p.rgba[i]);
-    wire.number(44, p.material);
-    wire.number(48, p.normal_azimuth);
-    wire.number(52, p.normal_elevation);
+    wire.number(2, 4, p.request);
+    wire.bits({4, 0}, {8, 0}, 1, p.valid);
+    wire.bits({4, 1}, {8, 1}, 1, p.entity_valid);
+    wire.bits({4, 2}, {8, 2}, 1, p.range_valid);
+    wire.bits({4, 3}, {8, 3}, 1, p.visible);
+    wire.bits({4, 4}, {8, 4}, 4, p.host_frame);
+    wire.number(5, 9, p.count);
+    wire.number(6, 6, p.entity);
+    wire.number(8, 16, p.range);
+    wire.numbers(16, 24, p.point);
+    wire.numbers(40, 48, p.rgba);
+    wire.number(44, 52, p.material);
+    wire.number(48, 56, p.normal_azimuth);
+    wire.number(52, 60, p.normal_elevation);
 }
 
-}  // namespace
-
-template <class P>
-P decode(std::span<const std::byte> packet, ByteOrder order) {
-    P value;
-    const Reader wire(packet, order);
-    layout(wire, value);
-    return value;
+void layout(auto& wire, Is<SensorResponse> auto& p) {
+    wire.number(2, 6, p.view);
+    wire.number(4, 4, p.sensor);
+    wire.bits({5, 0}, {5, 0}, 2, p.status);
+    wire.number(8, 8, p.gate_width);
+    wire.number(10, 10, p.gate_height);
+    wire.number(12, 12, p.gate_azimuth);
+    wire.number(16, 16, p.gate_elevation);
+    wire.number(20, 20, p.host_frame);
 }
 
-template <class P>
-std::size_t encode(const P& packet, ByteOrder order, std::span<std::byte> out) {
-    out = out.first(P::kSize);
-    std::ranges::fill(out, std::byte{0});
-    Writer wire(out, order);
-    wire.number(0, P::kId);
-    wire.number(1, static_cast<std::uint8_t>(P::kSize));
-    layout(wire, packet);
-    return P::kSize;
+void layout(auto& wire, Is<CollisionSegmentNotification> auto& p) {
+    wire.number(2, 4, p.entity);
+    wire.number(4, 8, p.segment);
+    wire.bits({5, 0}, {9, 0}, 1, p.with_entity);
+    wire.number(6, 6, p.other_entity);
+    wire.number(8, 12, p.material);
+    wire.number(12, 16, p.distance);
 }
 
-#define QUADRIG_CIGI_PACKET(P)                                   \
-    template P decode<P>(std::span<const std::byte>, ByteOrder); \
-    template std::size_t encode<P>(const P&, ByteOrder, std::span<std::byte>);
 QUADRIG_CIGI_PACKET(HatHotRequest)
 QUADRIG_CIGI_PACKET(LosSegmentRequest)
 QUADRIG_CIGI_PACKET(LosVectorRequest)
@@ -129,6 +119,21 @@ QUADRIG_CIGI_PACKET(HatHotResponse)
 QUADRIG_CIGI_PACKET(HatHotExtendedResponse)
 QUADRIG_CIGI_PACKET(LosResponse)
 QUADRIG_CIGI_PACKET(LosExtendedResponse)
-#undef QUADRIG_CIGI_PACKET
+QUADRIG_CIGI_PACKET(SensorResponse)
+QUADRIG_CIGI_PACKET(CollisionSegmentNotification)
+
+std::size_t encode(const IgMessage& packet, Format format, std::span<std::byte> out) {
+    const bool three = format.version == Version::three;
+    const std::string_view text = packet.text.substr(0, IgMessage::kMostCharacters);
+    const std::size_t begin = three ? 4 : 8;
+    const std::size_t size = (begin + text.size() + 1 + 7) / 8 * 8;
+    out = out.first(size);
+    std::ranges::fill(out, std::byte{0});
+    Writer wire(out, format.order);
+    write_header(wire, IgMessage::kId, size, format.version);
+    wire.number(three ? 2 : 4, packet.message);
+    std::ranges::copy(std::as_bytes(std::span(text)), out.begin() + static_cast<std::ptrdiff_t>(begin));
+    return size;
+}
 
 }  // namespace quadrig::host::cigi

@@ -24,18 +24,22 @@ Field degrees(std::string_view name, double value, double limit) { return {name,
 Field radians(std::string_view name, double value, double limit) { return {name, value, "rad", -limit, limit}; }
 Field metres(std::string_view name, double value) { return {name, value, "m"}; }
 
-Fields fields_of(const cigi::IgControl& p) {
-    Fields fields{whole("major_version", p.major_version), whole("minor_version", p.minor_version),
-                  whole("database", p.database),           {"mode", static_cast<double>(p.mode), "", 0, 2},
-                  whole("host_frame", p.host_frame),       whole("timestamp_valid", p.timestamp_valid),
-                  whole("timestamp", p.timestamp),         whole("smoothing", p.smoothing)};
+Fields fields_of(const cigi::IgControl& p, cigi::Version version) {
+    Fields fields{whole("major_version", static_cast<int>(version)),
+                  whole("minor_version", p.minor_version),
+                  whole("database", p.database),
+                  {"mode", static_cast<double>(p.mode), "", 0, 2},
+                  whole("host_frame", p.host_frame),
+                  whole("timestamp_valid", p.timestamp_valid),
+                  whole("timestamp", p.timestamp),
+                  whole("smoothing", p.smoothing)};
     if (p.last_ig_frame) fields.push_back(whole("last_ig_frame", *p.last_ig_frame));
     return fields;
 }
 
-Fields fields_of(const cigi::EntityControl& p) {
-    Fields fields{whole("state", p.state),    whole("attached", p.attached), whole("type", p.type),
-                  degrees("yaw", p.yaw, 360), degrees("pitch", p.pitch, 90), degrees("roll", p.roll, 360)};
+Fields fields_of(const cigi::EntityPosition& p) {
+    Fields fields{whole("attached", p.attached), degrees("yaw", p.yaw, 360), degrees("pitch", p.pitch, 90),
+                  degrees("roll", p.roll, 360)};
     if (p.attached) {
         fields.push_back(whole("parent", p.parent));
         for (const auto& [name, value] :
@@ -47,6 +51,18 @@ Fields fields_of(const cigi::EntityControl& p) {
     fields.push_back(degrees("longitude", p.longitude, 180));
     fields.push_back({"altitude", p.altitude, "m", -12e3, 1e8});
     return fields;
+}
+
+Fields fields_of(const cigi::EntityControl& p, cigi::Version version) {
+    Fields fields{whole("state", p.state), whole("type", p.type)};
+    if (version == cigi::Version::four) return fields;
+    for (const Field& field : fields_of(static_cast<const cigi::EntityPosition&>(p))) fields.push_back(field);
+    return fields;
+}
+
+Fields fields_of(const cigi::RateControl& p) {
+    return {{"x", p.x, "m/s"},           {"y", p.y, "m/s"},       {"z", p.z, "m/s"},      {"roll", p.roll, "deg/s"},
+            {"pitch", p.pitch, "deg/s"}, {"yaw", p.yaw, "deg/s"}, whole("local", p.local)};
 }
 
 Fields fields_of(const cigi::ViewControl& p) {
@@ -85,6 +101,29 @@ Fields fields_of(const cigi::AtmosphereControl& p) {
             {"pressure", p.pressure, "hPa"}};
 }
 
+Fields fields_of(const cigi::WeatherControl& p) {
+    return {whole("enable", p.enable),
+            whole("scope", p.scope),
+            {"base", p.base, "m", -12e3, 1e5},
+            {"thickness", p.thickness, "m", 0, 1e5},
+            {"coverage", p.coverage, "%", 0, 100},
+            {"visibility", p.visibility, "m", 0}};
+}
+
+Fields fields_of(const cigi::ShortComponentControl& p) {
+    return {whole("class", p.component_class), whole("instance", p.instance), whole("state", p.state),
+            whole("data_1", p.data[0]), whole("data_2", p.data[1])};
+}
+
+Fields fields_of(const cigi::SensorControl& p) {
+    return {whole("sensor", p.sensor), whole("on", p.on), whole("track_mode", p.track_mode)};
+}
+
+Fields fields_of(const cigi::CollisionSegmentDefinition& p) {
+    return {whole("segment", p.segment), whole("enable", p.enable), metres("x1", p.from[0]), metres("y1", p.from[1]),
+            metres("z1", p.from[2]),     metres("x2", p.to[0]),     metres("y2", p.to[1]),   metres("z2", p.to[2])};
+}
+
 Fields point_fields(const std::array<double, 3>& point, bool entity_axes) {
     if (entity_axes) return {metres("x", point[0]), metres("y", point[1]), metres("z", point[2])};
     return {degrees("latitude", point[0], 90), degrees("longitude", point[1], 180), metres("altitude", point[2])};
@@ -113,22 +152,30 @@ Fields fields_of(const cigi::LosVectorRequest& p) {
     return fields;
 }
 
-ToldPacket told(const cigi::Packet& packet, ByteOrder order) {
+ToldPacket told(const cigi::Packet& packet, cigi::Format format) {
     ToldPacket told{std::string(cigi::packet_name(packet.id)), {}};
     const auto as = [&]<class P>(P) {
-        const P read = cigi::decode<P>(packet.bytes, order);
-        told.fields = fields_of(read);
+        const P read = cigi::decode<P>(packet.bytes, format);
+        if constexpr (requires { fields_of(read, format.version); })
+            told.fields = fields_of(read, format.version);
+        else
+            told.fields = fields_of(read);
         if constexpr (requires { read.request; })
             told.name += ' ' + std::to_string(read.request);
         else if constexpr (requires { read.view; })
             told.name += ' ' + std::to_string(read.view);
-        else if constexpr (requires { read.parent; })
+        else if constexpr (requires { read.component; })
+            told.name += ' ' + std::to_string(read.component);
+        else if constexpr (requires { read.layer; })
+            told.name += ' ' + std::to_string(read.layer);
+        else if constexpr (requires { read.entity; })
             told.name += ' ' + std::to_string(read.entity);
     };
     const auto read_as = [&]<class... P>(P... kinds) { ((packet.id == P::kId ? as(kinds) : void()), ...); };
-    read_as(cigi::IgControl{}, cigi::EntityControl{}, cigi::ViewControl{}, cigi::ViewDefinition{},
-            cigi::CelestialSphereControl{}, cigi::AtmosphereControl{}, cigi::HatHotRequest{}, cigi::LosSegmentRequest{},
-            cigi::LosVectorRequest{});
+    read_as(cigi::IgControl{}, cigi::EntityControl{}, cigi::EntityPosition{}, cigi::RateControl{}, cigi::ViewControl{},
+            cigi::ViewDefinition{}, cigi::CelestialSphereControl{}, cigi::AtmosphereControl{}, cigi::WeatherControl{},
+            cigi::ShortComponentControl{}, cigi::SensorControl{}, cigi::CollisionSegmentDefinition{},
+            cigi::HatHotRequest{}, cigi::LosSegmentRequest{}, cigi::LosVectorRequest{});
     if (told.fields.empty()) told.name += " (packet id " + std::to_string(packet.id) + ", skipped)";
     return told;
 }
@@ -138,7 +185,8 @@ std::vector<ToldPacket> told_cigi(std::span<const std::byte> message) {
     const auto opened = cigi::open_message(message);
     const auto* read = std::get_if<cigi::Message>(&opened);
     if (read == nullptr) return packets;
-    for (auto rest = read->packets; !rest.empty();) packets.push_back(told(cigi::next_packet(rest), read->order));
+    for (auto rest = read->packets; !rest.empty();)
+        packets.push_back(told(next_packet(rest, read->format), read->format));
     return packets;
 }
 

@@ -1,10 +1,10 @@
 /// The newest thing known of the host, whatever protocol it speaks: every link ends here.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <optional>
 
 #include "ig_core/geometry/space.h"
@@ -48,14 +48,60 @@ struct CivilTime {
 
 enum class Mode { standby, operate, debug };
 
-/// An entity other than the ownship, as the host shows it: in scene space, where its newest packet has it.
+/// How something goes on moving.
+struct Rates {
+    glm::dvec3 velocity{0.0};  ///< m/s to the right (east), forward (north) and up
+    glm::dvec3 turn{0.0};      ///< rad/s about the same axes, right-handed
+    bool own_axes = false;     ///< the axes turn with the body, or else are level (of an attached one, its parent's)
+    [[nodiscard]] bool zero() const { return velocity == glm::dvec3(0.0) && turn == glm::dvec3(0.0); }
+};
+
+/// What smoothing still holds back of an entity's newest pose: all of it at `since`, nothing once it `lasts` no longer.
+struct HeldBack {
+    glm::dvec3 way{0.0};   ///< m, in the axes that the pose is in: from the new pose to what was shown
+    glm::dvec3 turn{0.0};  ///< rad about an axis of the new pose's own, right-handed
+    Time since{}, lasts{};
+};
+
+/// An entity as the host's packets have it, the ownship included.
 struct Entity {
     std::uint16_t id = 0;
-    std::uint16_t type = 0;
-    ScenePose pose;
+    std::optional<std::uint16_t> type;  ///< absent where 4.0 tells it in full (SISO-REF-010)
+    bool active = false;                ///< to be shown, as far as its parents are
+    bool placed = false;                ///< `pose` is known
+    bool detects_collisions = false;    ///< its segments are looked along
+    std::optional<std::uint16_t> parent;
+    ScenePose pose;  ///< at `since`; of an attached entity in its parent's axes, as if those were the scene's
+    glm::dmat3 level_from_scene{1.0};  ///< level axes there; of an attached entity its parent's
+    Rates rates;
+    Time since{};
+    bool smoothing = false;
+    HeldBack held_back;
 };
-/// Most that are shown at a time; the first to appear count.
-inline constexpr std::size_t kMostShownEntities = 64;
+
+/// The entities that a host has named, in the order in which it did. A plain value.
+struct EntityList {
+    /// Beside the ownship. Of more, those that stand by make room first, then the newest are left out.
+    static constexpr std::size_t kMost = 64;
+    std::array<Entity, kMost + 1> entities{};
+    std::size_t count = 0;
+
+    [[nodiscard]] const Entity* begin() const { return entities.data(); }
+    [[nodiscard]] const Entity* end() const { return entities.data() + count; }
+    [[nodiscard]] const Entity* find(std::uint16_t id) const {
+        const Entity* found = std::find_if(begin(), end(), [&](const Entity& e) { return e.id == id; });
+        return found == end() ? nullptr : found;
+    }
+};
+
+/// A layer of weather over all the scene, in heights of scene space.
+struct WeatherLayer {
+    bool enabled = false;
+    double base = 0.0, top = 0.0;  ///< m
+    double coverage = 1.0;         ///< 0..1
+    double visibility = 0.0;       ///< m, between base and top
+    [[nodiscard]] bool holds(double height) const { return enabled && height >= base && height <= top; }
+};
 
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
@@ -66,12 +112,17 @@ struct HostState {
     std::optional<glm::dvec3> velocity;  ///< m/s east, north, up at the ownship, where the host says so
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
-    std::optional<double> visibility;         ///< m, meteorological optical range
+    std::optional<double> visibility;  ///< m, meteorological optical range
+    /// 0: ground fog, then the scene's cloud decks; absent: as the scene has it.
+    std::array<std::optional<WeatherLayer>, 4> weather{};
+    bool test_pattern = false;
+    std::optional<bool> overlay;              ///< absent: as the appliance was asked
     std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
     std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram
-    std::array<Entity, kMostShownEntities> entities{};
-    std::size_t entity_count = 0;
+    EntityList entities;
+    std::uint16_t ownship = 0;                 ///< its id
+    std::optional<std::uint16_t> view_entity;  ///< what the eye rides on; absent: the ownship
 };
 
 }  // namespace quadrig::host

@@ -1,6 +1,7 @@
 #include "host_link/link_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "host_link/canaerospace.h"
@@ -11,7 +12,9 @@ namespace quadrig::host {
 
 namespace {
 
-std::string_view name_of_packet(Protocol protocol, std::uint8_t kind) {
+static_assert(cigi::kKinds <= std::tuple_size_v<decltype(LinkStatistics::packets)>);
+
+std::string_view name_of_packet(Protocol protocol, std::uint16_t kind) {
     switch (protocol) {
         case Protocol::cigi:
             return cigi::packet_name(kind);
@@ -20,7 +23,7 @@ std::string_view name_of_packet(Protocol protocol, std::uint8_t kind) {
         case Protocol::canaerospace:
             return canaerospace::parameter_at(kind).name;
         case Protocol::modbus:
-            return modbus::name_of(modbus::Function{kind});
+            return modbus::name_of(modbus::Function(kind));
     }
     return "unknown";
 }
@@ -35,7 +38,7 @@ NamedCounts packets_by_name(const LinkStatistics& statistics) {
     NamedCounts counts;
     for (std::size_t kind = 0; kind < statistics.packets.size(); ++kind) {
         if (statistics.packets[kind] == 0) continue;
-        const std::string_view name = name_of_packet(statistics.protocol, static_cast<std::uint8_t>(kind));
+        const std::string_view name = name_of_packet(statistics.protocol, static_cast<std::uint16_t>(kind));
         auto known = std::ranges::find(counts, name, &NamedCounts::value_type::first);
         if (known == counts.end()) known = counts.insert(counts.end(), {name, 0});
         known->second += statistics.packets[kind];

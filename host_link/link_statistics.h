@@ -25,16 +25,16 @@ struct LinkStatistics {
     Protocol protocol = Protocol::cigi;
     std::uint64_t datagrams = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t frames = 0;                  ///< poses accepted
-    std::array<std::uint64_t, 256> packets{};  ///< in sound datagrams; CIGI: by packet id, FDM: by
-                                               ///< version, CANaerospace: by parameter_index, Modbus: by function
+    std::uint64_t frames = 0;  ///< poses accepted
+    /// In sound datagrams. CIGI: by cigi::Kind, FDM: by version, CANaerospace: by parameter_index, Modbus: by function.
+    std::array<std::uint64_t, 262> packets{};
     std::array<std::uint64_t, kRejectCount> rejected{};  ///< by Reject
     std::uint64_t lost = 0;
     std::uint64_t duplicate = 0;
     std::uint64_t reordered = 0;
     std::uint64_t restarts = 0;          ///< the host began to count anew
-    std::uint64_t other_entities = 0;    ///< most shown at a time beside the ownship
-    std::uint64_t entities_dropped = 0;  ///< Entity Control packets that found as many shown as can be
+    std::uint64_t other_entities = 0;    ///< most active at a time beside the ownship
+    std::uint64_t entities_dropped = 0;  ///< packets of entities beyond those that are followed
     std::uint64_t answers_dropped = 0;   ///< requests about the scene beyond what is answered at a time
     std::optional<PoseSample> first_pose;
     std::optional<PoseSample> last_pose;

@@ -85,11 +85,11 @@ void set_endpoint(LinkUrl& url, std::string_view endpoint) {
     std::tie(url.address, url.port) = endpoint_of(url, endpoint);
 }
 
-void check_version(const LinkUrl& url, std::string_view value) {
-    if (value == "4" || value == "4.0") fail(url, "CIGI 4.0 is not supported yet");
+cigi::Version version_of(const LinkUrl& url, std::string_view value) {
+    if (value == "4" || value == "4.0") return cigi::Version::four;
     for (const std::string_view known : {"3", "3.0", "3.1", "3.2", "3.3"})
-        if (value == known) return;
-    fail(url, "unknown CIGI version '" + std::string(value) + "'; known is 3.3");
+        if (value == known) return cigi::Version::three;
+    fail(url, "unknown CIGI version '" + std::string(value) + "'; known are 3.3 and 4.0");
 }
 
 template <class Number>
@@ -111,7 +111,7 @@ canaerospace::PositionSource position_of(const LinkUrl& url, std::string_view va
 
 bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (key == "version")
-        check_version(url, value);
+        url.cigi_version = version_of(url, value);
     else if (key == "ownship")
         url.ownship = whole_in<std::uint16_t>(url, key, value, 0, 65535);
     else if (key == "view")
@@ -222,7 +222,7 @@ std::string_view name_of(Protocol protocol) {
 }
 
 std::string_view title_of(Protocol protocol) {
-    static constexpr std::array<std::string_view, kProtocolCount> kTitles{"CIGI 3", "FlightGear FDM", "CANaerospace",
+    static constexpr std::array<std::string_view, kProtocolCount> kTitles{"CIGI", "FlightGear FDM", "CANaerospace",
                                                                           "Modbus"};
     return kTitles[static_cast<std::size_t>(protocol)];
 }

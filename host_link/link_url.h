@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "host_link/canaerospace_pose.h"
+#include "host_link/cigi_format.h"
 #include "host_link/modbus_pose.h"
 #include "host_link/trust.h"
 
@@ -20,7 +21,7 @@ inline constexpr std::size_t kProtocolCount = 4;
 
 /// "cigi", "fdm", "can", "modbus": the scheme of its URLs.
 std::string_view name_of(Protocol protocol);
-/// "CIGI 3", "FlightGear FDM", "CANaerospace", "Modbus".
+/// "CIGI", "FlightGear FDM", "CANaerospace", "Modbus".
 std::string_view title_of(Protocol protocol);
 
 /// A link that cannot be understood, or is not supported: wrong use (exit status 2). The message names the URL.
@@ -33,22 +34,23 @@ struct LinkUrl {
     std::string text;     ///< as given
     bool live = false;    ///< says where to listen; a bare protocol names a recording's
     std::string address;  ///< numeric, without brackets, 127.0.0.1 where none was given; CAN: the interface
-    std::optional<std::uint16_t> port;        ///< 0: any free port; absent for CAN and a bare protocol
-    bool tcp = false;                         ///< FlightGear over TCP: ?transport=tcp
-    std::optional<std::uint16_t> ownship;     ///< ?ownship=ID
-    std::optional<std::uint16_t> view;        ///< ?view=ID
-    std::optional<double> altitude_offset;    ///< ?altitude_offset=METRES, added to the host's altitudes
-    canaerospace::PoseSettings canaerospace;  ///< ?position=, ?commit=, ?channel=, ?timeout=
-    modbus::PoseSettings modbus;              ///< ?base=, ?word_order=
-    std::optional<std::uint8_t> can_node;     ///< ?node=ID
-    TrustSettings trust;                      ///< ?allow=, ?host=, ?reply=, ?reply_rate=
+    std::optional<std::uint16_t> port;          ///< 0: any free port; absent for CAN and a bare protocol
+    bool tcp = false;                           ///< FlightGear over TCP: ?transport=tcp
+    std::optional<cigi::Version> cigi_version;  ///< ?version=
+    std::optional<std::uint16_t> ownship;       ///< ?ownship=ID
+    std::optional<std::uint16_t> view;          ///< ?view=ID
+    std::optional<double> altitude_offset;      ///< ?altitude_offset=METRES, added to the host's altitudes
+    canaerospace::PoseSettings canaerospace;    ///< ?position=, ?commit=, ?channel=, ?timeout=
+    modbus::PoseSettings modbus;                ///< ?base=, ?word_order=
+    std::optional<std::uint8_t> can_node;       ///< ?node=ID
+    TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=
 };
 
 /// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
-/// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3), ownship, view; can: position (gps,
-/// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
-/// to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm), reply
-/// (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
+/// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3, 4, 4.0), ownship, view; can: position
+/// (gps, ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000),
+/// node (1 to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm),
+/// reply (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

@@ -64,9 +64,8 @@ std::string likely_cause(Protocol protocol, Reject reason, std::span<const std::
                        ": neither 24 nor 25; another of FlightGear's protocols (native-ctrls, native-gui, generic), or "
                        "another program";
             return protocol == Protocol::modbus ? "the block's first register is not layout version 1"
-                                                : "not CIGI 3: only 3.0 to 3.3 are read";
-        case Reject::cigi_4_0:
-            return "a CIGI 4.0 host: set it to 3.3";
+                                                : "neither CIGI 3 nor 4.0, or not the one that ?version= "
+                                                  "asks for";
         case Reject::byte_swapped_version:
             return "byte-swapped " + first_number(message, ByteOrder::little) +
                    ": a host of the other byte order; net_fdm is big-endian";
@@ -78,10 +77,10 @@ std::string likely_cause(Protocol protocol, Reject reason, std::span<const std::
         case Reject::out_of_range:
             if (protocol == Protocol::modbus) return "a value out of its range: another word order? See ?word_order=";
             return fdm ? "a value out of its range: degrees for radians?" : "a value out of its range, or not a number";
-        case Reject::attached_ownship:
-            return "the ownship is attached to another entity: its position is no latitude";
-        case Reject::view_of_other_entity:
-            return "the view is on another entity than the ownship: see ?ownship=";
+        case Reject::bad_attachment:
+            return "an entity attached to itself, by way of others perhaps, or more than 8 deep";
+        case Reject::view_of_unknown_entity:
+            return "the view is on an entity that the host has not named before: see ?ownship=";
         case Reject::not_data_frame:
             return "a remote frame, an error report or CAN FD: the bus has trouble, or is not CANaerospace's";
         case Reject::unknown_channel:
@@ -180,8 +179,10 @@ void Monitor::compare(const LinkStatistics& before, std::optional<std::uint32_t>
     if (url_.protocol == Protocol::cigi)
         for (std::size_t id = 0; id < after.packets.size(); ++id)
             if (before.packets[id] == 0 && after.packets[id] != 0 &&
-                cigi::packet_name(static_cast<std::uint8_t>(id)) == "unknown")
-                odd("packet id " + std::to_string(id) + " has no meaning in CIGI 3.3 (said once)");
+                cigi::packet_name(static_cast<cigi::Kind>(id)) == "unknown")
+                odd(id == cigi::kUnknown4
+                        ? "a packet id that has no meaning in CIGI 4.0 (said once)"
+                        : "packet id " + std::to_string(id) + " has no meaning in CIGI 3.3 (said once)");
 }
 
 void Monitor::hear_refusals(const LinkStatistics& link) {

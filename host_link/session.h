@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host_link/canaerospace_pose.h"
 #include "host_link/cigi.h"
@@ -29,14 +30,18 @@ inline constexpr std::uint8_t kDefaultCanNode = 32;
 struct SessionOptions {
     Protocol protocol = Protocol::cigi;
     GeodeticPosition scene_origin;
-    double altitude_offset = 0.0;              ///< m, added to the host's altitudes
-    std::uint16_t ownship = 0;                 ///< entity id
-    std::optional<std::uint16_t> view;         ///< view id; absent: the first one that the host names
-    std::optional<ViewWindow> default_window;  ///< fills up what a View Definition leaves out
-    canaerospace::PoseSettings canaerospace;   ///< which messages make a pose
-    modbus::PoseSettings modbus;               ///< where the registers are
-    std::uint8_t can_node = kDefaultCanNode;   ///< under which CANaerospace's services find us
-    Surveyor surveyor;                         ///< answers for the scene; without one such requests are only counted
+    double altitude_offset = 0.0;               ///< m, added to the host's altitudes
+    std::uint16_t ownship = 0;                  ///< entity id
+    std::optional<std::uint16_t> view;          ///< view id; absent: the first one that the host names
+    std::optional<cigi::Version> cigi_version;  ///< others are refused; absent: as each message says
+    std::optional<ViewWindow> default_window;   ///< fills up what a View Definition leaves out
+    canaerospace::PoseSettings canaerospace;    ///< which messages make a pose
+    modbus::PoseSettings modbus;                ///< where the registers are
+    std::uint8_t can_node = kDefaultCanNode;    ///< under which CANaerospace's services find us
+    /// CIGI: types of entities that have a model; of others the host is warned.
+    std::vector<int> entity_types;
+    std::size_t cloud_decks = 0;  ///< that the scene has
+    Surveyor surveyor;            ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };
 
@@ -53,7 +58,7 @@ enum class Verdict : std::uint8_t {
 
 /// What a Start Of Frame needs to know of the host. A plain value.
 struct ReplyContext {
-    ByteOrder order = ByteOrder::little;
+    cigi::Format format;
     std::uint8_t minor_version = 3;
     bool separate_counters = true;  ///< 3.2 and later
     std::int8_t database = 0;
@@ -63,7 +68,8 @@ struct ReplyContext {
 
 /// Start Of Frame in the host's own byte order and version; returns its size. `time` is the image generator's.
 /// The scene is there before the first frame is, so a database that the host asks for is answered as loaded.
-std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time,
+/// `overframing`: the last frame was not whole in time; 4.0 tells it.
+std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time, bool overframing,
                            std::span<std::byte, cigi::StartOfFrame::kSize> out);
 
 /// Whether a pose is finite and in the ranges that host_link/README.md states.
@@ -75,6 +81,11 @@ class Session {
     static constexpr std::size_t kMostResponses = 64;
     /// Connections whose unfinished writes are kept; of more, those that wrote last.
     static constexpr std::size_t kMostModbusHosts = 8;
+
+    /// Collision segments, and sensors that track, that are told of every host frame.
+    static constexpr std::size_t kMostSegments = 64, kMostSensors = 16;
+    /// Metres from a parent to what still hangs on it, and to a segment's ends.
+    static constexpr double kFarthestOffset = 1e6;
 
     explicit Session(const SessionOptions& options);
 
@@ -126,32 +137,66 @@ class Session {
     modbus::PoseRegisters& registers_of(std::uint32_t source);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
     Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
+    /// What an answer needs to know of the message that asks.
+    struct Asking {
+        cigi::Format format;
+        std::uint8_t frame = 0;  ///< the lowest four bits of the host's number
+        Time arrival{};
+    };
     void apply(const cigi::IgControl& packet);
-    std::optional<GeodeticPose> apply(const cigi::EntityControl& packet);
-    /// Shows an entity where its packet has it, or no longer.
-    void show(const cigi::EntityControl& packet);
-    void apply(const cigi::ViewControl& packet);
+    void apply(const cigi::Packet& packet, const cigi::Message& message, Time arrival);
+    Entity* entity_for(std::uint16_t id);
+    void apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking);
+    void apply(const cigi::EntityPosition& packet, const Asking& asking);
+    void attach(const cigi::EntityPosition& packet, const Asking& asking);
+    void place_ownship(const PoseSample& sample);
+    void apply(const cigi::RateControl& packet, Time arrival);
+    void apply(const cigi::ViewControl& packet, const Asking& asking);
     void apply(const cigi::ViewDefinition& packet);
     void apply(const cigi::CelestialSphereControl& packet, Time arrival);
     void apply(const cigi::AtmosphereControl& packet);
     struct LineRequest {
         std::uint16_t id = 0;
         bool segment = false, extended = false, response_entity = false;
+        std::uint16_t entity = 0;
     };
-    std::optional<ScenePoint> point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id);
+    /// What makes a question the same one again.
+    struct Asked {
+        std::uint16_t request = 0;
+        std::uint8_t period = 0;
+    };
+    /// Message ids of the texts that a host gets.
+    enum class Warning : std::uint16_t {
+        far_from_scene = 1,
+        unknown_type,
+        unknown_view_entity,
+        bad_attachment,
+        no_such_deck,
+        count
+    };
+    [[gnu::format(printf, 4, 5)]] void warn(Warning warning, const Asking& asking, const char* form, ...);
+    void look_around(const Asking& asking);
+    void apply(const cigi::CollisionSegmentDefinition& packet);
+    void tell_collisions(const Asking& asking);
+    void apply(const cigi::SensorControl& packet, const Asking& asking);
+    void tell_sensor(const cigi::SensorControl& sensor, const Asking& asking);
+    void tell_sensors(const Asking& asking);
+    void apply(const cigi::WeatherControl& packet, const Asking& asking);
+    void apply(const cigi::ShortComponentControl& packet);
+    std::optional<ScenePose> body_of(std::uint16_t id, Time at) const;
+    std::optional<ScenePoint> point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id, Time arrival);
     std::optional<SurveyHit> plumb(const GeodeticPosition& below);
-    void answer(const cigi::HatHotRequest& request, ByteOrder order, std::uint8_t frame);
-    void answer(const cigi::LosSegmentRequest& request, ByteOrder order, std::uint8_t frame);
-    void answer(const cigi::LosVectorRequest& request, ByteOrder order, std::uint8_t frame);
-    void answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, ByteOrder order,
-                     std::uint8_t frame);
-    bool answer_packet(const cigi::Packet& packet, ByteOrder order, std::uint8_t frame);
-    void answer_request(const cigi::Packet& packet, const cigi::Message& message);
-    void answer_standing(const cigi::Message& message);
-    static std::uint8_t frame_nibble(const cigi::IgControl& ig_control);
+    void answer(const cigi::HatHotRequest& request, const Asking& asking);
+    void answer(const cigi::LosSegmentRequest& request, const Asking& asking);
+    void answer(const cigi::LosVectorRequest& request, const Asking& asking);
+    void answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, const Asking& asking);
+    std::optional<Asked> answer_packet(const cigi::Packet& packet, const Asking& asking);
+    void answer_request(const cigi::Packet& packet, const cigi::Message& message, Time arrival);
+    void answer_standing(const cigi::Message& message, Time arrival);
+    static Asking asking_of(const cigi::Message& message, Time arrival);
     template <class P>
-    void respond(const P& response, ByteOrder order);
-    bool is_our_view(std::uint16_t view, std::uint8_t group);
+    void respond(const P& response, cigi::Format format);
+    bool is_our_view(std::uint16_t view);
 
     SessionOptions options_;
     SceneFrame scene_frame_;
@@ -182,15 +227,24 @@ class Session {
     std::size_t response_count_ = 0;
     /// A request that is answered again every so many host frames.
     struct Standing {
-        std::array<std::byte, cigi::LosSegmentRequest::kSize> packet{};
+        std::array<std::byte, cigi::LosSegmentRequest::kSize4> packet{};
         std::size_t size = 0;
-        ByteOrder order = ByteOrder::little;
-        std::uint32_t asked = 0;  ///< host frame
+        cigi::Kind kind = 0;
+        cigi::Format format;
+        Asked asked;
+        std::uint32_t since = 0;  ///< host frame
     };
     std::array<Standing, kMostResponses> standing_{};
     std::size_t standing_count_ = 0;
     std::optional<std::uint16_t> view_;
+    std::uint8_t view_group_ = 0;  ///< that our view is in; 0: none
+    std::array<std::optional<Time>, static_cast<std::size_t>(Warning::count)> warned_{};
+    std::array<cigi::CollisionSegmentDefinition, kMostSegments> segments_{};
+    std::size_t segment_count_ = 0;
+    std::array<cigi::SensorControl, kMostSensors> sensors_{};
+    std::size_t sensor_count_ = 0;
     Window window_;
+    std::optional<GeodeticPose> ownship_pose_;  ///< of the message that is being taken
     struct Ephemeris {
         cigi::CelestialSphereControl packet;
         Time since{};
@@ -198,5 +252,15 @@ class Session {
     std::optional<Ephemeris> ephemeris_;
     bool comparable_ = false;  ///< the next pose follows the one before it on the same clock
 };
+
+template <class P>
+void Session::respond(const P& response, cigi::Format format) {
+    if (response_count_ == responses_.size()) {
+        ++statistics_.answers_dropped;
+        return;
+    }
+    Response& place = responses_[response_count_++];
+    place.size = cigi::encode(response, format, place.bytes);
+}
 
 }  // namespace quadrig::host

@@ -1,7 +1,6 @@
-// What each CIGI packet does to the session's state.
-#include <algorithm>
-#include <chrono>
+// A CIGI message taken as a whole, and what its packets about views do to the session's state.
 #include <cmath>
+#include <variant>
 
 #include "host_link/session.h"
 
@@ -11,21 +10,128 @@ namespace {
 
 // Half angles of a window whose tangents still make a picture.
 constexpr double kWidestHalfAngle = 89.0;
-// Metres from the ownship's reference point to an eye that still belongs to it.
+// Metres from an entity's reference point to an eye that still belongs to it.
 constexpr double kFarthestMount = 1e5;
-// The haze model divides by the visibility: zero is shown as this.
-constexpr double kLeastVisibility = 1.0;
 
-std::chrono::year_month_day calendar_date(std::uint32_t mmddyyyy) {
-    using namespace std::chrono;
-    return year(static_cast<int>(mmddyyyy % 10000)) / month(mmddyyyy / 1000000) / day(mmddyyyy / 10000 % 100);
+// FNV-1a (Fowler, Noll, Vo), 64 bits.
+std::uint64_t fingerprint(std::span<const std::byte> bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const std::byte b : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100000001b3U;
+    return hash;
 }
 
-bool same_moment(const cigi::CelestialSphereControl& a, const cigi::CelestialSphereControl& b) {
-    return a.date == b.date && a.hour == b.hour && a.minute == b.minute;
+cigi::IgMode ig_mode(Mode mode) {
+    switch (mode) {
+        case Mode::standby:
+            return cigi::IgMode::standby;
+        case Mode::operate:
+            return cigi::IgMode::operate;
+        case Mode::debug:
+            return cigi::IgMode::debug;
+    }
+    return cigi::IgMode::standby;
 }
+
+bool is_question(cigi::Kind kind) { return kind >= cigi::HatHotRequest::kId && kind <= cigi::LosVectorRequest::kId; }
 
 }  // namespace
+
+std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time, bool overframing,
+                           std::span<std::byte, cigi::StartOfFrame::kSize> out) {
+    cigi::StartOfFrame packet;
+    packet.minor_version = host.minor_version;
+    packet.database = host.database;
+    packet.mode = ig_mode(host.mode);
+    packet.timestamp_valid = true;
+    packet.ig_frame = ig_frame;
+    packet.timestamp = static_cast<std::uint32_t>(time / std::chrono::microseconds(10));
+    if (overframing) packet.conditions = cigi::StartOfFrame::kOverframing;
+    packet.last_host_frame.reset();
+    if (host.separate_counters) packet.last_host_frame = host.host_frame;
+    return cigi::encode(packet, host.format, out);
+}
+
+Arrival Session::order(const cigi::Message& message, std::span<const std::byte> datagram) {
+    // Before 3.2 a host that runs in step sends back the image generator's own counter, which says nothing about its
+    // messages.
+    if (!message.ig_control.last_ig_frame) return Arrival::next;
+    const Arrival arrival = frame_order_.arrive(message.ig_control.host_frame, fingerprint(datagram));
+    statistics_.lost = frame_order_.lost();
+    if (arrival == Arrival::duplicate) ++statistics_.duplicate;
+    if (arrival == Arrival::late) ++statistics_.reordered;
+    if (arrival == Arrival::restart) restart();
+    return arrival;
+}
+
+Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) {
+    const auto opened = cigi::open_message(datagram);
+    if (const auto* reason = std::get_if<Reject>(&opened)) return reject(*reason);
+    const auto& message = std::get<cigi::Message>(opened);
+    if (message.format.version != options_.cigi_version.value_or(message.format.version))
+        return reject(Reject::unknown_version);
+    for (auto rest = message.packets; !rest.empty();) ++statistics_.packets[next_packet(rest, message.format).id];
+
+    const Arrival place = order(message, datagram);
+    if (place == Arrival::duplicate) return Verdict::duplicate;
+    if (place == Arrival::late) return Verdict::reordered;
+
+    const cigi::IgControl& ig_control = message.ig_control;
+    apply(ig_control);
+    reply_ = ReplyContext{
+        message.format, ig_control.minor_version, ig_control.last_ig_frame.has_value(), ig_control.database,
+        state_.mode,    ig_control.host_frame};
+    ownship_pose_.reset();
+    bool asks = false;
+    for (auto rest = message.packets; !rest.empty();) {
+        const cigi::Packet packet = next_packet(rest, message.format);
+        asks = asks || is_question(packet.id);
+        apply(packet, message, arrival);
+    }
+    const auto source_time = ig_control.timestamp_valid ? cigi_clock_.read(ig_control.timestamp) : std::nullopt;
+    const Verdict verdict = take(arrival, ownship_pose_, source_time);
+    // After the message's own pose: questions in the ownship's axes are about where it is now.
+    const Asking asking = asking_of(message, arrival);
+    look_around(asking);
+    tell_collisions(asking);
+    tell_sensors(asking);
+    answer_standing(message, arrival);
+    for (auto rest = message.packets; asks && !rest.empty();) {
+        const cigi::Packet packet = next_packet(rest, message.format);
+        if (is_question(packet.id)) answer_request(packet, message, arrival);
+    }
+    return verdict;
+}
+
+void Session::apply(const cigi::Packet& packet, const cigi::Message& message, Time arrival) {
+    const auto as = [&]<class P>(P) { return cigi::decode<P>(packet.bytes, message.format); };
+    const Asking asking = asking_of(message, arrival);
+    switch (packet.id) {
+        case cigi::EntityControl::kId:
+            return apply(as(cigi::EntityControl{}), message, asking);
+        case cigi::EntityPosition::kId:
+            return apply(as(cigi::EntityPosition{}), asking);
+        case cigi::RateControl::kId:
+            return apply(as(cigi::RateControl{}), arrival);
+        case cigi::ViewControl::kId:
+            return apply(as(cigi::ViewControl{}), asking);
+        case cigi::ViewDefinition::kId:
+            return apply(as(cigi::ViewDefinition{}));
+        case cigi::CelestialSphereControl::kId:
+            return apply(as(cigi::CelestialSphereControl{}), arrival);
+        case cigi::AtmosphereControl::kId:
+            return apply(as(cigi::AtmosphereControl{}));
+        case cigi::WeatherControl::kId:
+            return apply(as(cigi::WeatherControl{}), asking);
+        case cigi::ShortComponentControl::kId:
+            return apply(as(cigi::ShortComponentControl{}));
+        case cigi::SensorControl::kId:
+            return apply(as(cigi::SensorControl{}), asking);
+        case cigi::CollisionSegmentDefinition::kId:
+            return apply(as(cigi::CollisionSegmentDefinition{}));
+        default:
+            return;
+    }
+}
 
 void Session::apply(const cigi::IgControl& packet) {
     state_.host_frame = packet.host_frame;
@@ -45,50 +151,17 @@ void Session::apply(const cigi::IgControl& packet) {
     }
 }
 
-std::optional<GeodeticPose> Session::apply(const cigi::EntityControl& packet) {
-    if (packet.entity == options_.ownship) {
-        if (packet.state == cigi::EntityState::destroyed) return std::nullopt;
-        if (packet.attached) {
-            reject(Reject::attached_ownship);
-            return std::nullopt;
-        }
-        return GeodeticPose{{{packet.latitude}, {packet.longitude}, packet.altitude},
-                            {{packet.yaw}, {packet.pitch}, {packet.roll}}};
-    }
-    show(packet);
-    return std::nullopt;
-}
-
-void Session::show(const cigi::EntityControl& packet) {
-    const GeodeticPosition position{{packet.latitude}, {packet.longitude}, packet.altitude + options_.altitude_offset};
-    const Attitude attitude{{packet.yaw}, {packet.pitch}, {packet.roll}};
-    const auto first = state_.entities.begin(), end = first + static_cast<std::ptrdiff_t>(state_.entity_count);
-    const auto known = std::find_if(first, end, [&](const Entity& e) { return e.id == packet.entity; });
-    const bool sound = in_range(position, attitude);
-    if (!sound && !packet.attached) reject(Reject::out_of_range);
-    if (packet.state != cigi::EntityState::active || packet.attached || !sound) {
-        if (known == end) return;
-        std::move(known + 1, end, known);
-        --state_.entity_count;
-    } else if (known != end || state_.entity_count < kMostShownEntities) {
-        if (known == end) ++state_.entity_count;
-        *known = {packet.entity, packet.type, scene_frame_.pose(position, attitude)};
-        statistics_.other_entities = std::max<std::uint64_t>(statistics_.other_entities, state_.entity_count);
-    } else {
-        ++statistics_.entities_dropped;
-    }
-}
-
-bool Session::is_our_view(std::uint16_t view, std::uint8_t group) {
-    if (group != 0) return false;
+bool Session::is_our_view(std::uint16_t view) {
     if (!view_) view_ = view;
     return *view_ == view;
 }
 
-void Session::apply(const cigi::ViewControl& packet) {
-    if (!is_our_view(packet.view, packet.group)) return;
-    if (packet.entity != options_.ownship) {
-        reject(Reject::view_of_other_entity);
+void Session::apply(const cigi::ViewControl& packet, const Asking& asking) {
+    if (packet.group != 0 ? packet.group != view_group_ : !is_our_view(packet.view)) return;
+    if (packet.entity != options_.ownship && state_.entities.find(packet.entity) == nullptr) {
+        reject(Reject::view_of_unknown_entity);
+        warn(Warning::unknown_view_entity, asking, "view %d is on entity %d, which is unknown", int{packet.view},
+             int{packet.entity});
         return;
     }
     ViewMount mount = state_.mount.value_or(ViewMount{});
@@ -111,10 +184,12 @@ void Session::apply(const cigi::ViewControl& packet) {
         return;
     }
     state_.mount = mount;
+    state_.view_entity = packet.entity;
 }
 
 void Session::apply(const cigi::ViewDefinition& packet) {
-    if (!is_our_view(packet.view, packet.group)) return;
+    if (!is_our_view(packet.view)) return;
+    view_group_ = packet.group;
     Window window = window_;
     bool sound = true;
     const auto set = [&sound](bool enabled, std::optional<Degrees>& angle, float wire) {
@@ -135,44 +210,6 @@ void Session::apply(const cigi::ViewDefinition& packet) {
     const bool defines = packet.left_enable || packet.right_enable || packet.top_enable || packet.bottom_enable;
     if (defines && window.left && window.right && window.top && window.bottom)
         state_.window = ViewWindow{*window.left, *window.right, *window.top, *window.bottom};
-}
-
-void Session::apply(const cigi::CelestialSphereControl& packet, Time arrival) {
-    if (!packet.date_time_valid) return;
-    if (!calendar_date(packet.date).ok() || packet.hour > 23 || packet.minute > 59) {
-        reject(Reject::out_of_range);
-        return;
-    }
-    // A host that repeats the packet every so often does not set its clock back to the full minute each time.
-    const bool repeated =
-        packet.ephemeris && ephemeris_ && ephemeris_->packet.ephemeris && same_moment(packet, ephemeris_->packet);
-    if (!repeated) ephemeris_ = Ephemeris{packet, arrival};
-}
-
-void Session::run_ephemeris(Time arrival) {
-    if (!ephemeris_) return;
-    using namespace std::chrono;
-    const auto& packet = ephemeris_->packet;
-    const auto running = packet.ephemeris ? floor<seconds>(std::max(arrival - ephemeris_->since, Time(0))) : seconds(0);
-    const sys_seconds now =
-        sys_days(calendar_date(packet.date)) + hours(packet.hour) + minutes(packet.minute) + running;
-    const auto midnight = floor<days>(now);
-    const year_month_day date(midnight);
-    const hh_mm_ss time(now - midnight);
-    state_.utc = CivilTime{int(date.year()),
-                           static_cast<int>(unsigned(date.month())),
-                           static_cast<int>(unsigned(date.day())),
-                           static_cast<int>(time.hours().count()),
-                           static_cast<int>(time.minutes().count()),
-                           static_cast<double>(time.seconds().count())};
-}
-
-void Session::apply(const cigi::AtmosphereControl& packet) {
-    if (!std::isfinite(packet.visibility) || packet.visibility < 0.0F) {
-        reject(Reject::out_of_range);
-        return;
-    }
-    state_.visibility = std::max<double>(packet.visibility, kLeastVisibility);
 }
 
 }  // namespace quadrig::host

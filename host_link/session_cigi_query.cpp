@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "host_link/cigi_query.h"
+#include "host_link/entity_motion.h"
 #include "host_link/session.h"
 
 namespace quadrig::host {
@@ -34,12 +35,15 @@ Bearing bearing(const glm::dvec3& d) {
 
 }  // namespace
 
-std::optional<ScenePoint> Session::point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id) {
+std::optional<ScenePose> Session::body_of(std::uint16_t id, Time at) const { return pose_of(state_.entities, id, at); }
+
+std::optional<ScenePoint> Session::point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id,
+                                            Time arrival) {
     if (!finite(at)) return std::nullopt;
     if (entity) {
-        if (id != options_.ownship || !state_.pose) return std::nullopt;
-        const ScenePose& body = state_.pose->pose;
-        return ScenePoint{body.position.metres + glm::transpose(body.eye_from_scene) * from_wire(at)};
+        const auto body = body_of(id, arrival);
+        if (!body) return std::nullopt;
+        return ScenePoint{body->position.metres + glm::transpose(body->eye_from_scene) * from_wire(at)};
     }
     const GeodeticPosition position{{at[0]}, {at[1]}, at[2] + options_.altitude_offset};
     if (!in_range(position, {})) return std::nullopt;
@@ -54,18 +58,8 @@ std::optional<SurveyHit> Session::plumb(const GeodeticPosition& below) {
     return options_.surveyor({level.position, down, 0.0, top.altitude + kBelowAll});
 }
 
-template <class P>
-void Session::respond(const P& response, ByteOrder order) {
-    if (response_count_ == responses_.size()) {
-        ++statistics_.answers_dropped;
-        return;
-    }
-    Response& place = responses_[response_count_++];
-    place.size = cigi::encode(response, order, place.bytes);
-}
-
-void Session::answer(const cigi::HatHotRequest& request, ByteOrder order, std::uint8_t frame) {
-    const auto point = point_of(request.point, request.entity_coordinates, request.entity);
+void Session::answer(const cigi::HatHotRequest& request, const Asking& asking) {
+    const auto point = point_of(request.point, request.entity_coordinates, request.entity, asking.arrival);
     if (!point) reject(Reject::out_of_range);
     const GeodeticPosition test = point ? scene_frame_.geodetic(*point) : GeodeticPosition{};
     const auto hit = point ? plumb(test) : std::nullopt;
@@ -81,15 +75,15 @@ void Session::answer(const cigi::HatHotRequest& request, ByteOrder order, std::u
     if (request.kind != cigi::HeightKind::extended) {
         const bool of_terrain = request.kind == cigi::HeightKind::of_terrain;
         return respond(
-            cigi::HatHotResponse{request.request, hit.has_value(), of_terrain, frame, of_terrain ? of : above}, order);
+            cigi::HatHotResponse{request.request, hit.has_value(), of_terrain, asking.frame, of_terrain ? of : above},
+            asking.format);
     }
-    respond(cigi::HatHotExtendedResponse{request.request, hit.has_value(), frame, above, of, hit ? hit->material : 0U,
-                                         normal.azimuth, normal.elevation},
-            order);
+    respond(cigi::HatHotExtendedResponse{request.request, hit.has_value(), asking.frame, above, of,
+                                         hit ? hit->material : 0U, normal.azimuth, normal.elevation},
+            asking.format);
 }
 
-void Session::answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, ByteOrder order,
-                          std::uint8_t frame) {
+void Session::answer_line(const LineRequest& request, const std::optional<SurveyLine>& line, const Asking& asking) {
     if (!line) reject(Reject::out_of_range);
     const auto hit = line ? options_.surveyor(*line) : std::nullopt;
     const bool valid = line && (request.segment || hit);
@@ -98,93 +92,87 @@ void Session::answer_line(const LineRequest& request, const std::optional<Survey
     if (!request.extended)
         return respond(
             cigi::LosResponse{
-                .request = request.id, .valid = valid, .visible = visible, .host_frame = frame, .range = range},
-            order);
+                .request = request.id, .valid = valid, .visible = visible, .host_frame = asking.frame, .range = range},
+            asking.format);
     cigi::LosExtendedResponse response{.request = request.id,
                                        .valid = valid,
                                        .range_valid = hit.has_value(),
                                        .visible = visible,
-                                       .host_frame = frame,
+                                       .host_frame = asking.frame,
                                        .range = range};
     if (hit) {
         const GeodeticPosition there = scene_frame_.geodetic(hit->point);
         glm::dmat3 axes = scene_frame_.pose(there, {}).eye_from_scene;
         response.point = {there.latitude.value, there.longitude.value, there.altitude - options_.altitude_offset};
-        if (request.response_entity && state_.pose) {
-            axes = state_.pose->pose.eye_from_scene;
-            response.point = to_wire(axes * (hit->point.metres - state_.pose->pose.position.metres));
+        const auto body = request.response_entity ? body_of(request.entity, asking.arrival) : std::nullopt;
+        if (body) {
+            axes = body->eye_from_scene;
+            response.point = to_wire(axes * (hit->point.metres - body->position.metres));
         }
         const Bearing normal = bearing(axes * hit->normal);
         response.material = hit->material;
         response.normal_azimuth = normal.azimuth;
         response.normal_elevation = normal.elevation;
     }
-    respond(response, order);
+    respond(response, asking.format);
 }
 
-void Session::answer(const cigi::LosSegmentRequest& request, ByteOrder order, std::uint8_t frame) {
-    const auto from = point_of(request.source, request.source_entity, request.entity);
+void Session::answer(const cigi::LosSegmentRequest& request, const Asking& asking) {
+    const auto from = point_of(request.source, request.source_entity, request.entity, asking.arrival);
     const auto to = point_of(request.destination, request.destination_entity,
-                             request.destination_id_valid ? request.destination_id : request.entity);
+                             request.destination_id_valid ? request.destination_id : request.entity, asking.arrival);
     std::optional<SurveyLine> line;
     if (from && to) {
         const glm::dvec3 way = to->metres - from->metres;
         const double length = glm::length(way);
         if (length > 0.0) line = SurveyLine{*from, way / length, 0.0, length};
     }
-    answer_line({request.request, true, request.extended, request.response_entity}, line, order, frame);
+    answer_line({request.request, true, request.extended, request.response_entity, request.entity}, line, asking);
 }
 
-void Session::answer(const cigi::LosVectorRequest& request, ByteOrder order, std::uint8_t frame) {
-    const auto from = point_of(request.source, request.source_entity, request.entity);
+void Session::answer(const cigi::LosVectorRequest& request, const Asking& asking) {
+    const auto from = point_of(request.source, request.source_entity, request.entity, asking.arrival);
     const bool sound = std::isfinite(request.azimuth) && std::isfinite(request.elevation) && request.least >= 0.0F &&
                        request.most > request.least && std::isfinite(request.most);
     std::optional<SurveyLine> line;
     if (from && sound) {
         const glm::dmat3 axes = request.source_entity
-                                    ? state_.pose->pose.eye_from_scene
+                                    ? body_of(request.entity, asking.arrival)->eye_from_scene
                                     : scene_frame_.pose(scene_frame_.geodetic(*from), {}).eye_from_scene;
         const double azimuth = glm::radians<double>(request.azimuth), up = glm::radians<double>(request.elevation);
         const glm::dvec3 along(std::sin(azimuth) * std::cos(up), std::cos(azimuth) * std::cos(up), std::sin(up));
         line = SurveyLine{*from, glm::transpose(axes) * along, request.least, request.most};
     }
-    answer_line({request.request, false, request.extended, request.response_entity}, line, order, frame);
+    answer_line({request.request, false, request.extended, request.response_entity, request.entity}, line, asking);
 }
 
-bool Session::answer_packet(const cigi::Packet& packet, ByteOrder order, std::uint8_t frame) {
+std::optional<Session::Asked> Session::answer_packet(const cigi::Packet& packet, const Asking& asking) {
     const auto as = [&]<class P>(P) {
-        const P request = cigi::decode<P>(packet.bytes, order);
-        answer(request, order, frame);
-        return request.period;
+        const P request = cigi::decode<P>(packet.bytes, asking.format);
+        answer(request, asking);
+        return Asked{request.request, request.period};
     };
-    std::uint8_t period = 0;
     switch (packet.id) {
         case cigi::HatHotRequest::kId:
-            period = as(cigi::HatHotRequest{});
-            break;
+            return as(cigi::HatHotRequest{});
         case cigi::LosSegmentRequest::kId:
-            period = as(cigi::LosSegmentRequest{});
-            break;
+            return as(cigi::LosSegmentRequest{});
         case cigi::LosVectorRequest::kId:
-            period = as(cigi::LosVectorRequest{});
-            break;
+            return as(cigi::LosVectorRequest{});
         default:
-            return false;
+            return std::nullopt;
     }
-    // Before 3.2 the field is reserved.
-    return period != 0 && reply_->separate_counters;
 }
 
-void Session::answer_request(const cigi::Packet& packet, const cigi::Message& message) {
+void Session::answer_request(const cigi::Packet& packet, const cigi::Message& message, Time arrival) {
     if (!options_.surveyor) return;
-    const bool periodic = answer_packet(packet, message.order, frame_nibble(message.ig_control));
-    const auto same = [&](const Standing& s) {
-        return s.packet.front() == packet.bytes.front() && s.packet[2] == packet.bytes[2] &&
-               s.packet[3] == packet.bytes[3];
-    };
+    const auto asked = answer_packet(packet, asking_of(message, arrival));
+    if (!asked) return;
+    const auto same = [&](const Standing& s) { return s.kind == packet.id && s.asked.request == asked->request; };
     const auto end = standing_.begin() + static_cast<std::ptrdiff_t>(standing_count_);
     auto place = std::find_if(standing_.begin(), end, same);
-    if (!periodic) {
+    // Before 3.2 the field is reserved.
+    if (asked->period == 0 || !reply_->separate_counters) {
         // Asked once: whatever was repeated under that number no longer is.
         if (place != end) *place = standing_[--standing_count_];
         return;
@@ -198,26 +186,27 @@ void Session::answer_request(const cigi::Packet& packet, const cigi::Message& me
     }
     std::ranges::copy(packet.bytes, place->packet.begin());
     place->size = packet.bytes.size();
-    place->order = message.order;
-    place->asked = message.ig_control.host_frame;
+    place->kind = packet.id;
+    place->format = message.format;
+    place->asked = *asked;
+    place->since = message.ig_control.host_frame;
 }
 
-void Session::answer_standing(const cigi::Message& message) {
+void Session::answer_standing(const cigi::Message& message, Time arrival) {
     for (std::size_t i = 0; i < standing_count_; ++i) {
         const Standing& standing = standing_[i];
-        const cigi::Packet packet{std::to_integer<std::uint8_t>(standing.packet[0]),
-                                  std::span(standing.packet).first(standing.size)};
-        const std::size_t period_at = packet.id == cigi::HatHotRequest::kId       ? 5
-                                      : packet.id == cigi::LosSegmentRequest::kId ? 60
-                                                                                  : 52;
-        const auto period = std::to_integer<std::uint32_t>(standing.packet[period_at]);
-        const std::uint32_t since = message.ig_control.host_frame - standing.asked;
-        if (since != 0 && since % period == 0) answer_packet(packet, standing.order, frame_nibble(message.ig_control));
+        const std::uint32_t since = message.ig_control.host_frame - standing.since;
+        if (since == 0 || since % standing.asked.period != 0) continue;
+        Asking asking = asking_of(message, arrival);
+        asking.format = standing.format;
+        answer_packet({standing.kind, std::span(standing.packet).first(standing.size)}, asking);
     }
 }
 
-std::uint8_t Session::frame_nibble(const cigi::IgControl& ig_control) {
-    return ig_control.last_ig_frame ? static_cast<std::uint8_t>(ig_control.host_frame & 0x0FU) : std::uint8_t{0};
+Session::Asking Session::asking_of(const cigi::Message& message, Time arrival) {
+    const cigi::IgControl& ig_control = message.ig_control;
+    const std::uint32_t frame = ig_control.last_ig_frame ? ig_control.host_frame & 0x0FU : 0U;
+    return {message.format, static_cast<std::uint8_t>(frame), arrival};
 }
 
 }  // namespace quadrig::host

@@ -133,11 +133,17 @@ std::size_t UdpLink::largest_reply(std::uint64_t bytes_taken) {
     return static_cast<std::size_t>(std::min<std::uint64_t>(kLargestMessage, bytes_taken - bytes_answered_));
 }
 
-void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now) {
+void UdpLink::frame_begins(const FrameStatus& status) {
+    send_start_of_frame(status.frame, status.now, status.misses != misses_);
+    misses_ = status.misses;
+}
+
+void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now, bool overframing) {
     const auto& [state, reply, peer, heard] = latched();
     if (!reply || peer.size == 0) return;
     const std::size_t largest = largest_reply(peer.bytes_taken);
-    std::size_t size = start_of_frame(*reply, ig_frame, now, std::span(message_).first<cigi::StartOfFrame::kSize>());
+    std::size_t size =
+        start_of_frame(*reply, ig_frame, now, overframing, std::span(message_).first<cigi::StartOfFrame::kSize>());
     if (size > largest || !reply_rate_.take(now)) return hold_reply_back();
     std::size_t next = taken_.load(std::memory_order_relaxed);
     for (const std::size_t end = queued_.load(std::memory_order_acquire); next != end; ++next) {

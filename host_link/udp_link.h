@@ -24,8 +24,9 @@ class UdpLink final : public LiveLink {
 
     /// To a CIGI host: Start Of Frame for this frame, with the answers that are ready, as many as a message holds, to
     /// where the URL says or the state last taken came from. Does nothing before that.
-    void send_start_of_frame(std::uint32_t ig_frame, Time now);
-    void frame_begins(const FrameStatus& status) override { send_start_of_frame(status.frame, status.now); }
+    void send_start_of_frame(std::uint32_t ig_frame, Time now, bool overframing = false);
+    /// Overframing is told where a deadline was missed since the frame before.
+    void frame_begins(const FrameStatus& status) override;
 
     [[nodiscard]] std::string place() const override { return "port " + std::to_string(port()); }
     [[nodiscard]] std::uint16_t port() const override;
@@ -52,6 +53,7 @@ class UdpLink final : public LiveLink {
     std::optional<Peer> reply_to_;
     bool open_;  ///< anybody may reach the link
     std::uint64_t bytes_answered_ = 0;
+    std::uint32_t misses_ = 0;
 };
 
 }  // namespace quadrig::host

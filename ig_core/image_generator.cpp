@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ig_core/objects_in_view.h"
+#include "ig_core/scene/deck_coverage.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_cover.h"
@@ -54,14 +55,21 @@ struct ImageGenerator::Impl {
             for (const Object& object : model.objects) at_rest.push_back(make_solid(object));
         }
         paints = make_frame_paints(scene);
-        for (const FramePaint& paint : paints.decks) deck_opaque.push_back(!paint.translucent);
+        for (std::size_t i = 0; i < scene.cloud_decks.size(); ++i) {
+            const Paint& paint = scene.cloud_decks[i].paint;
+            deck_opaque.push_back(!paints.decks[i].translucent);
+            deck_coverages.emplace_back();
+            if (paints.decks[i].translucent)
+                deck_coverages.back().emplace(scene.textures[*paint.texture], *paint.translucence);
+        }
     }
 
     /// Puts what moves where it is: objects by scene time, models by the host.
     void move_objects(const Environment& environment);
 
     /// Ground, decks, markings and lights.
-    void look_at_features(const View& view, double pixel_height);
+    void look_at_features(const View& view, const Environment& environment, double pixel_height);
+    void look_at_decks(const View& view, const Environment& environment);
     /// Spans of a strip's rows, object by object: each is looked up once.
     void add_spans(std::span<const PixelRow> rows, bool everything_opaque, const PlaneSurfaces& planes,
                    RowWorker& worker);
@@ -84,6 +92,7 @@ struct ImageGenerator::Impl {
     std::vector<std::vector<Solid>> models;  // at rest, in their own axes
     FramePaints paints;
     std::vector<std::uint8_t> deck_opaque;
+    std::vector<std::optional<DeckCoverage>> deck_coverages;  // of those with holes
     PlaneSurfaces planes;
     ObjectsInView objects;
     StripIndex polygons_on_strips, lights_on_strips;
@@ -110,12 +119,25 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
     }
 }
 
-void ImageGenerator::Impl::look_at_features(const View& view, double pixel_height) {
+void ImageGenerator::Impl::look_at_decks(const View& view, const Environment& environment) {
+    planes.decks.clear();
+    for (std::size_t i = 0; i < scene.cloud_decks.size(); ++i) {
+        const CloudDeck& deck = scene.cloud_decks[i];
+        const auto state = i < environment.decks.size() ? environment.decks[i] : std::nullopt;
+        // No depth at all: nowhere to be seen.
+        planes.decks.push_back(
+            state && !state->shown ? PlaneDepth{} : horizontal_plane(view, state ? state->altitude : deck.altitude));
+        if (const auto& coverage = deck_coverages[i])
+            paints.decks[i].threshold =
+                static_cast<float>(state ? coverage->threshold(state->coverage) : deck.paint.translucence->threshold);
+    }
+}
+
+void ImageGenerator::Impl::look_at_features(const View& view, const Environment& environment, double pixel_height) {
     const ImagePlane& image = view.image;
     planes.ground = horizontal_plane(view, 0.0);
     planes.has_ground = scene.ground.has_value();
-    planes.decks.clear();
-    for (const CloudDeck& deck : scene.cloud_decks) planes.decks.push_back(horizontal_plane(view, deck.altitude));
+    look_at_decks(view, environment);
     look_at(scene.ground_polygons, view, polygons);
     look_at(scene.lights, view, kLeastLightPixels * pixel_height, lights);
     polygons_on_strips.sort(strips_of(image), polygons.size(), [&](std::size_t i) {
@@ -249,7 +271,7 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     const auto selected = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
-    g.look_at_features(view, asked.image.row_step);
+    g.look_at_features(view, environment, asked.image.row_step);
     const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
                              quality};
     g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {

@@ -49,13 +49,22 @@ struct PlacedModel {
     ScenePose pose;
 };
 
+/// A cloud deck of the scene as the host has it.
+struct DeckState {
+    bool shown = true;
+    double altitude = 0.0;  ///< m
+    /// 0..1: the share of the sky that it covers, by its texture's threshold. A deck without translucence is whole.
+    double coverage = 1.0;
+};
+
 /// What the host may change from frame to frame; absent values are the scene's own.
 struct Environment {
     double seconds = 0.0;  ///< scene time, drives texture drift and objects that move
     std::optional<Sun> sun;
     std::optional<double>
         visibility;  ///< m, meteorological optical range; replaces the scene's, or adds haze where it has none
-    std::span<const PlacedModel> bodies{};  ///< their objects are numbered after the scene's, in this order
+    std::span<const std::optional<DeckState>> decks{};  ///< the scene's, in its order; those left out are as they are
+    std::span<const PlacedModel> bodies{};              ///< their objects are numbered after the scene's, in this order
 };
 
 /// A finished or growing picture in memory that somebody else owns: 8-bit sRGB, four bytes a pixel R, G, B, A = 255.

@@ -26,12 +26,14 @@ Bytes fdm_message(const Pose& pose, std::uint32_t cur_time) {
     return bytes;
 }
 
-Bytes cigi_message(std::uint32_t host_frame, const Pose& pose, const Bytes& more, host::ByteOrder order) {
+Bytes cigi_message(std::uint32_t host_frame, const Pose& pose, const Bytes& more, host::cigi::Format format) {
     host::cigi::EntityControl entity = host::test::ownship(kLatitude, kLongitude, kAltitude + pose.height);
     entity.yaw = static_cast<float>(pose.attitude.heading.value);
     entity.pitch = static_cast<float>(pose.attitude.pitch.value);
     entity.roll = static_cast<float>(pose.attitude.roll.value);
-    Bytes bytes = host::test::message(order, host::test::ig_control(host_frame, host_frame * 1667), entity);
+    Bytes bytes = host::test::message(format, host::test::ig_control(host_frame, host_frame * 1667), entity);
+    if (format.version == host::cigi::Version::four)
+        host::test::append(bytes, static_cast<const host::cigi::EntityPosition&>(entity), format);
     bytes.insert(bytes.end(), more.begin(), more.end());
     return bytes;
 }

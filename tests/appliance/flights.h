@@ -18,9 +18,10 @@ struct Pose {
     Attitude attitude;
 };
 Bytes fdm_message(const Pose& pose, std::uint32_t cur_time = 1234567890);
-/// IG Control and the ownship's Entity Control, without smoothing, and `more` packets behind them.
+/// IG Control and the ownship's Entity Control (of 4.0 with its Entity Position), without smoothing, and `more` packets
+/// behind them.
 Bytes cigi_message(std::uint32_t host_frame, const Pose& pose, const Bytes& more = {},
-                   host::ByteOrder order = host::ByteOrder::big);
+                   host::cigi::Format format = host::ByteOrder::big);
 
 /// A capture of datagrams at a steady period.
 std::filesystem::path recording(const std::vector<Bytes>& datagrams, std::uint16_t port,

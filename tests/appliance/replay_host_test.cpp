@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "display/png_file.h"
+#include "display/test_pattern.h"
 #include "host_link/cigi.h"
 #include "host_link/geodesy.h"
 #include "host_link/sun_position.h"
@@ -11,6 +12,7 @@
 
 using namespace quadrig;
 using namespace quadrig::tests;
+namespace cigi = quadrig::host::cigi;
 
 namespace {
 
@@ -75,6 +77,18 @@ TEST_CASE("A CIGI pose is seen as the still picture from the same eye") {
                rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
 }
 
+TEST_CASE("A CIGI 4.0 stream is seen as the 3.3 stream of the same pose is, to the last bit") {
+    host::cigi::ViewControl mount;
+    mount.yaw_enable = true, mount.yaw = -30.0F;
+    const auto seen = [&](host::cigi::Version version) {
+        const host::cigi::Format format{kOrder, version};
+        Bytes more;
+        host::test::append(more, mount, format);
+        return replayed(cigi_message(0, kPose, more, format), true, small_scene());
+    };
+    CHECK(difference(seen(host::cigi::Version::three), seen(host::cigi::Version::four)).largest == 0);
+}
+
 TEST_CASE("The altitude offset of a link moves the eye") {
     check_same(replayed(fdm_message(kPose), false, small_scene(), {"--link", "fdm:?altitude_offset=6.5"}),
                rendered(small_scene(), "0,0,20.5", "12.5,-3,20", "60"));
@@ -124,6 +138,55 @@ TEST_CASE("The sun stands where the host's date and time put it, and haze is the
     sky.date_time_valid = false;
     check_same(replayed(cigi_message(0, kPose, bytes_of(sky)), true, small_scene()),
                rendered(small_scene(), "0,0,14", "12.5,-3,20", "60"));
+}
+
+TEST_CASE("A layer of weather moves the scene's cloud deck, takes it away, and is a fog to an eye within it") {
+    const auto seen = [](const cigi::WeatherControl& weather, double height = 14.0) {
+        return replayed(cigi_message(0, {height, {{12.5}, {10.0}, {0.0}}}, bytes_of(weather)), true, small_scene());
+    };
+    const auto with_deck = [](const std::string& altitude, const std::string& threshold) {
+        std::string text = small_scene();
+        text.replace(text.find("altitude = 900.0"), 16, "altitude = " + altitude);
+        text.replace(text.find("threshold = 0.1"), 15, "threshold = " + threshold);
+        return text;
+    };
+    cigi::WeatherControl weather{.layer = 1,
+                                 .enable = true,
+                                 .visibility = 90.0F,
+                                 .coverage = 100.0F,
+                                 .base = 581.0F + 400.0F,
+                                 .thickness = 200.0F};
+    std::string whole = with_deck("400.0", "0.1");
+    const std::string holes = "translucence = { threshold = 0.1, softness = 0.3 }";
+    whole.erase(whole.find(holes), holes.size());
+    CHECK(difference(seen(weather), rendered(whole, "0,0,14", "12.5,10,0", "60")).mean < 0.01);
+    weather.enable = false;
+    CHECK(difference(seen(weather), rendered(with_deck("-1e6", "0.1"), "0,0,14", "12.5,10,0", "60")).mean < 0.01);
+    weather.enable = true;
+    std::string fog = with_deck("-1e6", "0.1");
+    const std::string haze = "[haze]\nvisibility = 90.0\n";
+    check_same(seen(weather, 450.0), rendered(haze + fog, "0,0,450", "12.5,10,0", "60"));
+    // Less of it lets more of the sky through.
+    weather.coverage = 50.0F;
+    const auto half = seen(weather);
+    weather.coverage = 0.0F;
+    const auto none = seen(weather);
+    CHECK(difference(half, none).mean > 0.1);
+    CHECK(difference(half, rendered(whole, "0,0,14", "12.5,10,0", "60")).mean > 0.1);
+}
+
+TEST_CASE("A host switches the test pattern and the overlay on and off") {
+    const auto seen = [](std::uint16_t component, std::uint8_t state, const Arguments& more = {}) {
+        const cigi::ShortComponentControl control{.component = component, .component_class = 13, .state = state};
+        return replayed(cigi_message(0, kPose, bytes_of(control)), true, small_scene(), more);
+    };
+    const auto pattern = seen(1, 1);
+    display::Picture expected(160, 120);
+    display::draw_test_pattern(expected.image());
+    CHECK(difference(pattern, expected).largest == 0);
+    CHECK(difference(seen(2, 1), seen(3, 1, {"--overlay"})).largest == 0);
+    CHECK(difference(seen(2, 0, {"--overlay"}), seen(3, 1)).largest == 0);
+    CHECK(difference(seen(2, 1), seen(2, 0)).largest > 100);
 }
 
 TEST_CASE("An entity of the host is drawn as the model that its type stands for, where the host has it") {

@@ -121,6 +121,40 @@ TEST_CASE("A CIGI host that asks how high it is gets the answer behind a Start O
     CHECK(program.wait().status == 0);
 }
 
+TEST_CASE("A CIGI 4.0 host drives a live run, in either byte order, and is answered in 4.0") {
+    const auto out = scratch_directory();
+    Program program({"run", "--scene", scene(), "--link", "cigi://127.0.0.1:0", "--size", "32x24", "--rate", "60",
+                     "--report", out / "r.json"});
+    const auto port = program.number_after("listens on port ");
+    REQUIRE(port);
+    std::uint32_t host_frame = 0;
+    for (const auto order : {host::ByteOrder::big, host::ByteOrder::little}) {
+        const HostSocket host(*port);
+        const host::cigi::Format format{order, host::cigi::Version::four};
+        const host::cigi::HatHotRequest question{.request = 9, .entity_coordinates = true};
+        Bytes more;
+        host::test::append(more, question, format);
+        host.send(cigi_message(++host_frame, {20.0, {}}, more, format));
+        Bytes reply;
+        for (int i = 0; i < 100 && reply.size() != 40; ++i) reply = host.receive(5000ms);
+        REQUIRE(reply.size() == 40);
+        const auto sof = host::cigi::decode<host::cigi::StartOfFrame>(reply, format);
+        CHECK(reply[4] == std::byte{4});
+        CHECK(sof.last_host_frame == host_frame);
+        CHECK((sof.conditions & ~host::cigi::StartOfFrame::kOverframing) == 0);
+        const auto answer = host::cigi::decode<host::cigi::HatHotResponse>(std::span(reply).subspan(24), format);
+        CHECK(answer.request == 9);
+        CHECK(answer.valid);
+    }
+    program.signal(SIGTERM);
+    CHECK(program.wait().status == 0);
+    const auto link = report_of(out / "r.json")["links"][0];
+    CHECK(link["packets"] ==
+          nlohmann::json({{"ig_control", 2}, {"entity_control", 2}, {"entity_position", 2}, {"hat_hot_request", 2}}));
+    CHECK(link["rejected"].empty());
+    CHECK(link["last_pose"]["altitude"] == Approx(601.0));
+}
+
 TEST_CASE("A CIGI host gets Start Of Frame back, every frame, and is answered with its own frame numbers") {
     const auto out = scratch_directory();
     Program program({"run", "--scene", scene(), "--link", "cigi://127.0.0.1:0", "--size", "32x24", "--rate", "60",

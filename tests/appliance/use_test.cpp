@@ -108,7 +108,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene, "--link", "fdm:"}, "ADDRESS:PORT"},
         {{"run", "--scene", scene, "--link", "fdm://localhost:99999"}, "99999"},
         {{"run", "--scene", scene, "--link", "fdm://far.example:5500"}, "far.example"},
-        {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=4.0"}, "4.0"},
+        {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=5"}, "version"},
         {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:0?word_order=up"}, "word_order"},
         {{"bench", scene}, "--path"},
         {{"bench", scene, "--path", cameras, "--frames", "-3"}, "--frames"},

@@ -1,4 +1,5 @@
 #include "display/overlay.h"
+#include "display/test_pattern.h"
 
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -17,6 +18,32 @@ bool same_pixel(const FrameImage& a, const FrameImage& b, int row, int column) {
 }
 
 }  // namespace
+
+TEST_CASE("The test pattern is eight bars over sixteen greys, inside a white line, at any size") {
+    for (const auto& [width, height] : {std::pair{160, 120}, {641, 359}, {1, 1}, {17, 2}}) {
+        Picture picture(width, height);
+        draw_test_pattern(picture.image());
+        for (int r = 0; r < height; ++r)
+            for (int c = 0; c < width; ++c) {
+                const std::uint8_t* p = pixel(picture.image(), r, c);
+                std::array<int, 3> expected{};
+                if (r == 0 || c == 0 || r == height - 1 || c == width - 1)
+                    expected = {255, 255, 255};
+                else if (r < 2 * height / 3)
+                    expected = std::array<std::array<int, 3>, 8>{{{255, 255, 255},
+                                                                  {255, 255, 0},
+                                                                  {0, 255, 255},
+                                                                  {0, 255, 0},
+                                                                  {255, 0, 255},
+                                                                  {255, 0, 0},
+                                                                  {0, 0, 255},
+                                                                  {0, 0, 0}}}[static_cast<std::size_t>(8 * c / width)];
+                else
+                    expected.fill(17 * (16 * c / width));
+                REQUIRE((p[0] == expected[0] && p[1] == expected[1] && p[2] == expected[2] && p[3] == 255));
+            }
+    }
+}
 
 TEST_CASE("A layer laid over a picture is the source-over blend of every pixel within half a step") {
     const std::uint32_t seed = std::random_device{}();

@@ -282,3 +282,26 @@ TEST_CASE("A sample lost on the way, which nobody counts, puts the grid right ag
         before = time;
     }
 }
+
+TEST_CASE(
+    "An ownship with rates goes on by them after its newest sample, smoothly, and for as long as no other comes") {
+    HostState state;
+    state.earlier = sample_at(1000ms, 1, {{{0, 0, 0}}, glm::dmat3(1.0)});
+    state.pose = sample_at(1100ms, 2, {{{10, 0, 0}}, glm::dmat3(1.0)});
+    host::Entity& own = state.entities.entities[state.entities.count++];
+    own.placed = own.active = true;
+    own.pose = state.pose->pose;
+    own.since = state.pose->arrival;
+    own.rates.velocity = {100.0, 0.0, 0.0};
+    own.rates.own_axes = true;
+    MotionSmoother smoother;
+    const auto x = [&](Time at) { return smoother.pose_at(state, at)->position.metres.x; };
+    CHECK(x(1070ms) == Approx(5.0));
+    CHECK(x(1120ms) == Approx(10.0));
+    CHECK(x(1121ms) == Approx(10.1));
+    CHECK(x(9120ms) == Approx(810.0));
+    state.smoothing = false;
+    CHECK(x(1200ms) == Approx(20.0));
+    own.rates = {};
+    CHECK(x(1200ms) == 10.0);
+}

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host_link/can_frame.h"
+#include "host_link/entity_motion.h"
 #include "host_link/fdm_stream.h"
 #include "host_link/modbus.h"
 #include "host_link/monitor.h"
@@ -43,8 +44,17 @@ void check(const HostState& state) {
                 state.utc->hour >= 0 && state.utc->hour < 24 && state.utc->minute >= 0 && state.utc->minute < 60 &&
                 state.utc->second >= 0.0 && state.utc->second < 61.0,
             "date and time are of a calendar and a clock");
-    law(state.entity_count <= kMostShownEntities, "at most so many entities are shown");
-    for (std::size_t i = 0; i < state.entity_count; ++i) law(finite(state.entities[i].pose), "entities are somewhere");
+    for (const auto& layer : state.weather)
+        if (layer)
+            law(finite({layer->base, layer->top, layer->visibility}) && layer->coverage >= 0.0 &&
+                    layer->coverage <= 1.0,
+                "a layer of weather is somewhere");
+    law(state.entities.count <= EntityList::kMost + 1, "at most so many entities are known");
+    for (const Entity& entity : state.entities) {
+        if (entity.placed) law(finite(entity.pose), "entities are somewhere");
+        if (const auto pose = pose_of(state.entities, entity.id, entity.since + 1h, std::nullopt))
+            law(finite(*pose), "entities stay somewhere");
+    }
 }
 
 /// A session, what it has to count, and its clock.
@@ -64,7 +74,7 @@ class Conversation {
         law(all <= Session::kMostResponses * cigi::kLargestResponse, "answers are bounded");
         if (const auto& reply = session_.reply_context()) {
             std::array<std::byte, cigi::StartOfFrame::kSize> out{};
-            law(start_of_frame(*reply, 7, now_, out) <= out.size(), "Start Of Frame has its size");
+            law(start_of_frame(*reply, 7, now_, true, out) <= out.size(), "Start Of Frame has its size");
         }
     }
     void wait(Time pause) { now_ += pause; }

@@ -22,16 +22,17 @@ Bytes from_hex(std::string_view hex);
 std::string to_hex(std::span<const std::byte> bytes);
 
 template <class P>
-void append(Bytes& message, const P& packet, ByteOrder order) {
+void append(Bytes& message, const P& packet, cigi::Format format) {
+    constexpr std::size_t kLargest = 72;
     const std::size_t before = message.size();
-    message.resize(before + P::kSize);
-    message.resize(before + cigi::encode(packet, order, std::span(message).subspan(before)));
+    message.resize(before + kLargest);
+    message.resize(before + cigi::encode(packet, format, std::span(message).subspan(before)));
 }
 
 template <class... P>
-Bytes message(ByteOrder order, const P&... packets) {
+Bytes message(cigi::Format format, const P&... packets) {
     Bytes bytes;
-    (append(bytes, packets, order), ...);
+    (append(bytes, packets, format), ...);
     return bytes;
 }
 

@@ -184,7 +184,7 @@ TEST_CASE("Files that are no captures, or hold no host, are refused by name and 
                Contains("no datagram of a FlightGear FDM host"));
 }
 
-TEST_CASE("A CIGI 4.0 recording is recognised, so that its datagrams can be refused by name") {
+TEST_CASE("A CIGI 4.0 recording is recognised by its content") {
     PcapWriter writer(kIpv4);
     for (int i = 0; i < 3; ++i)
         writer.packet(ipv4_udp(from_hex("1800000004000005e90300008d13000040e2010000000000")), 1s);

@@ -1,38 +1,13 @@
 // Wireshark's dissector as the judge: what we encode, it must read with the same values.
-#include <array>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
 
 #include "host_link/cigi_query.h"
-#include "support.h"
+#include "tshark_judge.h"
 
 using namespace quadrig::host;
 using namespace quadrig::host::test;
 
 namespace {
-
-struct Random {
-    std::mt19937_64 engine;
-    explicit Random(std::uint64_t seed) : engine(seed) {}
-    std::uint64_t below(std::uint64_t n) { return std::uniform_int_distribution<std::uint64_t>(0, n - 1)(engine); }
-    template <class T>
-    void number(T& value) {
-        value = static_cast<T>(engine());
-    }
-    void bits(auto& value, int count) {
-        value = static_cast<std::remove_reference_t<decltype(value)>>(below(1U << count));
-    }
-    // tshark prints floats with six digits: multiples of 1/8 below 1000 need no more.
-    void number(float& value) { value = static_cast<float>(static_cast<int>(below(15999)) - 7999) / 8.0F; }
-    void number(double& value) { value = std::uniform_real_distribution<double>(-180.0, 180.0)(engine); }
-};
-
-struct Column {
-    std::string field;
-    double value;
-};
-using Columns = std::vector<Column>;
 
 Columns random_message(Random& random, Bytes& bytes, ByteOrder order) {
     Columns c;
@@ -173,30 +148,6 @@ Columns random_reply(Random& random, Bytes& bytes, ByteOrder order) {
     return c;
 }
 
-/// Expects fields of one packet, whose names begin alike.
-struct Fields {
-    Random& random;
-    Columns& columns;
-    std::string packet;
-
-    void expect(const std::string& field, auto value) {
-        columns.push_back({"cigi." + packet + "." + field, static_cast<double>(value)});
-    }
-    void number(const std::string& field, auto& value) {
-        random.number(value);
-        expect(field, value);
-    }
-    void bits(const std::string& field, auto& value, int count) {
-        random.bits(value, count);
-        expect(field, value);
-    }
-    void triple(const std::string& before, std::array<double, 3>& values) {
-        number(before + "lat_xoff", values[0]);
-        number(before + "lon_yoff", values[1]);
-        number(before + "alt_zoff", values[2]);
-    }
-};
-
 Columns random_questions(Random& random, Bytes& bytes, ByteOrder order) {
     Columns c;
     cigi::HatHotRequest height;
@@ -300,44 +251,6 @@ Columns random_answers(Random& random, Bytes& bytes, ByteOrder order) {
     cigi::StartOfFrame sof;
     bytes = message(order, sof, height, both, sight, all);
     return c;
-}
-
-double number_of(const std::string& text) {
-    if (text == "True") return 1.0;
-    if (text == "False") return 0.0;
-    std::size_t used = 0;
-    const double value =
-        text.starts_with("0x") ? static_cast<double>(std::stoull(text, &used, 16)) : std::stod(text, &used);
-    if (used != text.size()) throw std::runtime_error("not one number: " + text);
-    return value;
-}
-
-void judge(const std::string& name, ByteOrder order, const std::function<Columns(Random&, Bytes&, ByteOrder)>& make) {
-    const std::uint64_t seed = std::random_device{}();
-    INFO("seed " << seed);
-    Random random(seed);
-    PcapWriter capture(228);
-    std::vector<Columns> expected;
-    for (int i = 0; i < 300; ++i) {
-        Bytes bytes;
-        expected.push_back(make(random, bytes, order));
-        capture.packet(ipv4_udp(bytes), std::chrono::milliseconds(i));
-    }
-    std::vector<std::string> fields{"cigi.byte_swap", "_ws.malformed", "cigi.unknown"};
-    for (const auto& column : expected.front()) fields.push_back(column.field);
-    const auto rows = tshark_fields(capture.save(name + ".pcap"), fields);
-    REQUIRE(rows.size() == expected.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        REQUIRE(rows[r].size() == fields.size());
-        CHECK(number_of(rows[r][0]) == (order == ByteOrder::big ? 0x8000 : 0x0080));
-        CHECK(rows[r][1].empty());
-        CHECK(rows[r][2].empty());
-        for (std::size_t i = 0; i < expected[r].size(); ++i) {
-            INFO("message " << r << ", " << expected[r][i].field << " read as " << rows[r][i + 3]);
-            const double value = expected[r][i].value;
-            CHECK(std::abs(number_of(rows[r][i + 3]) - value) <= 1e-14 * std::abs(value));
-        }
-    }
 }
 
 }  // namespace

@@ -96,7 +96,9 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("cigi://[:80"), Contains("bad IPv6"));
     CHECK_THAT(error_of("cigi://::1:80"), Contains("brackets"));
     CHECK_THAT(error_of("cigi:127.0.0.1:80"), Contains("//"));
-    CHECK_THAT(error_of("cigi://127.0.0.1:80?version=4.0"), Contains("4.0 is not supported yet"));
+    CHECK(parse_link_url("cigi://127.0.0.1:80?version=4.0").cigi_version == cigi::Version::four);
+    CHECK(parse_link_url("cigi://127.0.0.1:80?version=3.2").cigi_version == cigi::Version::three);
+    CHECK_FALSE(parse_link_url("cigi://127.0.0.1:80").cigi_version.has_value());
     CHECK_THAT(error_of("cigi://127.0.0.1:80?version=5"), Contains("unknown CIGI version"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));

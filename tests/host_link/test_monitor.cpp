@@ -56,6 +56,18 @@ TEST_CASE("A host in order is seen field by field with its rates, and nothing is
     CHECK_THAT(link.monitor.view(link.now + 1s), Contains(" 0.0 messages/s"));
 }
 
+TEST_CASE("A 4.0 host is seen field by field, too") {
+    Watched link("cigi:");
+    constexpr cigi::Format kFour{ByteOrder::little, cigi::Version::four};
+    const auto entity = ownship();
+    link.hear(message(kFour, ig_control(1), entity, static_cast<const cigi::EntityPosition&>(entity),
+                      cigi::WeatherControl{.layer = 2, .coverage = 101.0F}));
+    const std::string view = link.monitor.view(link.now + 1s);
+    CHECK_THAT(view, Contains("major_version 4") && Contains("entity_position 0") && Contains("latitude 47.26 deg"));
+    CHECK_THAT(view, Contains("weather_control 2") && Contains("coverage 101 % (!)"));
+    CHECK_THAT(link.oddities(), Contains("coverage 101 %"));
+}
+
 TEST_CASE("Everything that a host's developers should know of becomes a line, with the message that showed it") {
     Watched link("cigi:");
     for (std::uint32_t f = 0; f < 9; ++f) link.hear(cigi_frame(f));

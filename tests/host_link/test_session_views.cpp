@@ -102,7 +102,7 @@ TEST_CASE("Ours is the view that was asked for, or the first one that the host n
     CHECK(asked.session.state().window.has_value());
 }
 
-TEST_CASE("View groups are not followed, and a view on another entity is counted") {
+TEST_CASE("View groups are not followed, and a view on an entity that nobody named is counted") {
     Host host;
     auto group = full_view_control(1);
     group.group = 3;
@@ -110,7 +110,7 @@ TEST_CASE("View groups are not followed, and a view on another entity is counted
     auto elsewhere = full_view_control(1);
     elsewhere.entity = 12;
     CHECK_FALSE(host.send(elsewhere).mount.has_value());
-    CHECK(host.session.statistics().rejected_for(Reject::view_of_other_entity) == 1);
+    CHECK(host.session.statistics().rejected_for(Reject::view_of_unknown_entity) == 1);
 }
 
 TEST_CASE("View Definition sets the window; its flags enable each angle by itself") {
@@ -234,7 +234,7 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
         ig.database = 3;
         session.accept(message(order, ig), 0ms);
         std::array<std::byte, cigi::StartOfFrame::kSize> bytes{};
-        REQUIRE(start_of_frame(session.reply_context().value(), 99, 123450us, bytes) == 24);
+        REQUIRE(start_of_frame(session.reply_context().value(), 99, 123450us, false, bytes) == 24);
         const auto sof = cigi::decode<cigi::StartOfFrame>(bytes, order);
         CHECK(sof.ig_frame == 99);
         CHECK(sof.last_host_frame == 4711U);
@@ -248,54 +248,11 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
         ig.last_ig_frame.reset();
         ig.minor_version = 0;
         session.accept(message(order, ig), 0ms);
-        CHECK(start_of_frame(session.reply_context().value(), 99, 0ms, bytes) == 16);
+        CHECK(start_of_frame(session.reply_context().value(), 99, 0ms, false, bytes) == 16);
     }
 }
 
-TEST_CASE("Entities are shown where their newest packets have them, while they are active and stand by themselves") {
-    SessionOptions options;
-    options.scene_origin = {{47.26}, {11.34}, 500.0};
-    Session session(options);
-    auto send = [&, frame = 0u](auto entity) mutable {
-        session.accept(message(ByteOrder::big, ig_control(frame++), entity), 0ms);
-    };
-    auto other = ownship(47.001);
-    other.entity = 7, other.type = 12, other.yaw = 90.0F;
-    send(other);
-    REQUIRE(session.state().entity_count == 1);
-    CHECK(session.state().entities[0].id == 7);
-    CHECK(session.state().entities[0].type == 12);
-    const auto expected =
-        SceneFrame(options.scene_origin)
-            .pose({{other.latitude}, {other.longitude}, other.altitude}, {{90}, {other.pitch}, {other.roll}});
-    CHECK(session.state().entities[0].pose.position.metres == expected.position.metres);
-    CHECK(session.state().entities[0].pose.eye_from_scene == expected.eye_from_scene);
-
-    auto third = other;
-    third.entity = 8, third.type = 3;
-    send(third);
-    CHECK(session.state().entity_count == 2);
-    for (const auto hide : {0, 1, 2, 3}) {
-        auto hidden = other;
-        if (hide == 0) hidden.state = cigi::EntityState::standby;
-        if (hide == 1) hidden.state = cigi::EntityState::destroyed;
-        if (hide == 2) hidden.attached = true;
-        if (hide == 3) hidden.latitude = 95.0;
-        send(hidden);
-        CHECK(session.state().entity_count == 1);
-        CHECK(session.state().entities[0].id == 8);
-        send(other);
-        CHECK(session.state().entity_count == 2);
-        CHECK(session.state().entities[1].id == 7);
-    }
-    CHECK(session.statistics().rejected_for(Reject::out_of_range) == 1);
-    for (std::uint16_t id = 100; id < 300; ++id) third.entity = id, send(third);
-    CHECK(session.state().entity_count == kMostShownEntities);
-    CHECK(session.statistics().other_entities == kMostShownEntities);
-    CHECK(session.statistics().entities_dropped == 200 + 2 - kMostShownEntities);
-}
-
-TEST_CASE("The entity that carries the eye is the one asked for, and is not shown") {
+TEST_CASE("The entity that carries the eye is the one asked for") {
     SessionOptions options;
     options.ownship = 9;
     Session session(options);
@@ -303,6 +260,7 @@ TEST_CASE("The entity that carries the eye is the one asked for, and is not show
     entity.entity = 9;
     session.accept(message(ByteOrder::little, ig_control(0), ownship(20.0), entity, ownship(30.0)), 0ms);
     CHECK(session.state().pose->position.latitude.value == 10.0);
-    REQUIRE(session.state().entity_count == 1);
-    CHECK(session.state().entities[0].id == 0);
+    REQUIRE(session.state().entities.find(0) != nullptr);
+    CHECK(session.state().entities.find(0)->active);
+    CHECK(session.state().ownship == 9);
 }

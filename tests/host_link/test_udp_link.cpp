@@ -62,6 +62,9 @@ bool wait_until(const auto& condition) {
     return false;
 }
 
+/// Near where the hosts fly, so that they are not warned.
+const GeodeticPosition kHome{{40.5}, {11.34}, 0.0};
+
 Bytes frame(std::uint32_t number, ByteOrder order = ByteOrder::big) {
     return message(order, ig_control(number, number * 1667), ownship(40.0 + number * 1e-3));
 }
@@ -74,7 +77,7 @@ TEST_CASE("What a host sends over UDP is the newest state a moment later, with a
     Peer host(link.port());
     const Time before = monotonic_now();
     host.send(frame(0));  // queued by the kernel before the link has started
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     HostState state;
     REQUIRE(wait_until([&] { return link.take_newest(state); }));
     CHECK(state.host_frame == 0U);
@@ -95,7 +98,7 @@ TEST_CASE("What a host sends over UDP is the newest state a moment later, with a
 
 TEST_CASE("Start Of Frame goes back to the host that was heard last, in its byte order") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     HostState state;
     link.send_start_of_frame(0, 0ms);
     CHECK(link.replies_sent() == 0);
@@ -119,7 +122,7 @@ TEST_CASE("Start Of Frame goes back to the host that was heard last, in its byte
 
 TEST_CASE("Garbage is counted, answered by nothing, and leaves the link alive") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     Peer host(link.port());
     host.send({});
     host.send(Bytes(1000));
@@ -136,7 +139,7 @@ TEST_CASE("Garbage is counted, answered by nothing, and leaves the link alive") 
 
 TEST_CASE("A host that went away does not stop the link") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     HostState state;
     {
         Peer gone(link.port());
@@ -151,7 +154,7 @@ TEST_CASE("A host that went away does not stop the link") {
 
 TEST_CASE("A flood of datagrams, one in ten valid, loses none of the valid ones that the kernel delivers") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     Peer host(link.port());
     const Bytes noise(64);
     for (std::uint32_t f = 1; f <= 2000; ++f) {
@@ -172,7 +175,7 @@ TEST_CASE("A flood of datagrams, one in ten valid, loses none of the valid ones 
 
 TEST_CASE("Strangers' floods beside an allowed host are counted as theirs, and take no memory") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0?allow=10.1.0.0/16,127.0.0.1"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     Peer host(link.port()), stranger(link.port(), 2);
     const auto resident = [] {
         std::size_t whole = 0, pages = 0;
@@ -202,7 +205,7 @@ TEST_CASE("Strangers' floods beside an allowed host are counted as theirs, and t
 
 TEST_CASE("Of two hosts at once the first holds the link where that is asked for, until it falls silent") {
     UdpLink link(parse_link_url("cigi://127.0.0.1:0?host=first"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     Peer first(link.port()), second(link.port());
     second.send(Bytes(8));  // holds nothing: not a host's
     HostState state;
@@ -232,7 +235,7 @@ TEST_CASE("Replies go to the configured host, whoever speaks, and not more often
     Peer configured(probe.port());
     UdpLink link(
         parse_link_url("cigi://127.0.0.1:0?reply_rate=10&reply=127.0.0.1:" + std::to_string(configured.port())));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     Peer host(link.port());
     host.send(frame(1));
     HostState state;
@@ -246,7 +249,7 @@ TEST_CASE("Replies go to the configured host, whoever speaks, and not more often
 TEST_CASE("A link that anybody may reach sends no more bytes back than came") {
     UdpLink open(parse_link_url("cigi://0.0.0.0:0")), trusted(parse_link_url("cigi://0.0.0.0:0?allow=127.0.0.0/8"));
     for (UdpLink* link : {&open, &trusted}) {
-        SessionOptions options = session_options(link->url(), {});
+        SessionOptions options = session_options(link->url(), kHome);
         options.surveyor = [](const SurveyLine&) { return std::optional<SurveyHit>(); };
         link->start(options);
         Peer host(link->port());
@@ -284,7 +287,7 @@ TEST_CASE("A link stops at once, started or not, and twice") {
     UdpLink idle(parse_link_url("cigi://127.0.0.1:0"));
     idle.stop();
     UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     const auto before = std::chrono::steady_clock::now();
     link.stop();
     link.stop();
@@ -303,7 +306,7 @@ TEST_CASE("IPv6 loopback works where the machine has it") {
         return;
     }
     UdpLink link(parse_link_url("cigi://[::1]:0"));
-    link.start(session_options(link.url(), {}));
+    link.start(session_options(link.url(), kHome));
     address.sin6_port = htons(link.port());
     const Bytes bytes = frame(1);
     sendto(probe, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&address), sizeof address);

@@ -35,7 +35,7 @@ const std::vector<Row>& rows() {
         {"host_link/", {"ig_core/geometry/"}},
         {"frame_scheduler/",
          {"ig_core/geometry/", "ig_core/scene/", "ig_core/quality.h", "ig_core/view.h", "ig_core/image_generator.h",
-          "host_link/host_state.h", "host_link/mailbox.h"}},
+          "host_link/host_state.h", "host_link/entity_motion.h", "host_link/mailbox.h"}},
         {"display/", {"ig_core/geometry/", "ig_core/view.h"}},
         {"config/", {"ig_core/", "host_link/", "frame_scheduler/"}},
         {"appliance/", {"ig_core/", "host_link/", "frame_scheduler/", "display/", "config/"}},

@@ -16,8 +16,8 @@ namespace {
 // Where the plumb line for a height begins above the test point or the ellipsoid, and ends below the ellipsoid.
 constexpr double kAboveAll = 1e5, kBelowAll = 2e4;
 
-bool finite(const std::array<double, 3>& values) {
-    return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+bool below(double limit, const std::array<double, 3>& values) {
+    return std::ranges::all_of(values, [&](double x) { return std::abs(x) <= limit; });
 }
 
 /// Axes of the wire: X forward, Y right, Z down. Ours: right, forward, up.
@@ -39,8 +39,8 @@ std::optional<ScenePose> Session::body_of(std::uint16_t id, Time at) const { ret
 
 std::optional<ScenePoint> Session::point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id,
                                             Time arrival) {
-    if (!finite(at)) return std::nullopt;
     if (entity) {
+        if (!below(kFarthestOffset, at)) return std::nullopt;
         const auto body = body_of(id, arrival);
         if (!body) return std::nullopt;
         return ScenePoint{body->position.metres + glm::transpose(body->eye_from_scene) * from_wire(at)};

@@ -75,6 +75,7 @@ void Session::tell_collisions(const Asking& asking) {
         };
         const glm::dvec3 from = point(segment.from), way = point(segment.to) - from;
         const double length = glm::length(way);
+        if (!(length > 0.0)) continue;  // it meets nothing
         const auto hit = options_.surveyor({{from}, way / length, 0.0, length});
         if (!hit) continue;
         respond(cigi::CollisionSegmentNotification{.entity = segment.entity,

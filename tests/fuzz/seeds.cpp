@@ -50,7 +50,7 @@ std::vector<Bytes> recorded(const char* name, std::size_t count) {
 }
 
 /// Frames with a packet of every kind that is understood.
-std::vector<Bytes> cigi_messages(ByteOrder order) {
+std::vector<Bytes> cigi_messages(host::cigi::Format format) {
     using namespace host::cigi;
     using test::ig_control, test::message, test::ownship;
     EntityControl other = ownship(47.27);
@@ -71,10 +71,35 @@ std::vector<Bytes> cigi_messages(ByteOrder order) {
     ViewDefinition window;
     window.left = window.bottom = -20.0F;
     window.right = window.top = 20.0F;
-    return {message(order, ig_control(1, 1667), ownship(), ViewControl{}, window),
-            message(order, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{}, AtmosphereControl{}),
-            message(order, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
-            message(order, ig_control(4, 6667), height) + test::raw_packet(200, 16)};
+    RateControl rates;
+    rates.entity = 3, rates.x = 50.0F, rates.yaw = 3.0F, rates.local = true;
+    EntityControl hanging = ownship();
+    hanging.entity = 4, hanging.attached = true, hanging.parent = 3, hanging.collision_detection = true;
+    hanging.latitude = 5.0, hanging.longitude = 1.0, hanging.altitude = -2.0;
+    WeatherControl layer;
+    layer.layer = 1, layer.enable = true, layer.base = 1500.0F, layer.thickness = 200.0F, layer.coverage = 60.0F;
+    layer.visibility = 300.0F;
+    ShortComponentControl pattern;
+    pattern.component_class = ShortComponentControl::kSystem, pattern.component = 1, pattern.state = 1;
+    SensorControl sensor;
+    sensor.on = true, sensor.track_mode = 1;
+    CollisionSegmentDefinition feeler;
+    feeler.entity = 4, feeler.enable = true, feeler.to = {100.0F, 0.0F, 900.0F};
+    // 4.0 has an entity's position in a packet of its own; a 3.x message has nothing of that id.
+    const auto with_positions = [&](Bytes bytes, std::initializer_list<EntityControl> entities) {
+        if (format.version == Version::four)
+            for (const EntityPosition position : entities) test::append(bytes, position, format);
+        return bytes;
+    };
+    return {
+        with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
+        with_positions(message(format, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{},
+                               AtmosphereControl{}),
+                       {ownship(47.2601), other}),
+        message(format, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
+        with_positions(message(format, ig_control(4, 6667), hanging, rates, layer, pattern, sensor, feeler), {hanging}),
+        message(format, ig_control(5, 8333), height) +
+            (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
 }
 
 Bytes fdm(std::uint32_t version, double latitude) {
@@ -136,6 +161,7 @@ void add_links(std::vector<Seed>& all) {
     const auto little = cigi_messages(ByteOrder::little), big = cigi_messages(ByteOrder::big);
     all.push_back({"cigi", "little_endian", conversation(little)});
     all.push_back({"cigi", "big_endian", conversation(big)});
+    all.push_back({"cigi", "version_4", conversation(cigi_messages({ByteOrder::big, host::cigi::Version::four}))});
     all.push_back({"cigi", "recorded", conversation(recorded("cigi33-737-turn.pcapng", 3))});
     const std::vector<Bytes> flight{fdm(24, 0.8), fdm(24, 0.8001), fdm(25, 0.8002)};
     all.push_back({"fdm", "both_versions", conversation(flight)});

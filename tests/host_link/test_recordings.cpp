@@ -130,6 +130,23 @@ TEST_CASE(
     CHECK(played.states.back().host_frame == 3599);
 }
 
+TEST_CASE("Every pose of the recorded CIGI 4.0 flight agrees with the class library's reading") {
+    const Played played = play("cigi40-f16-climb.pcap", {{47.1}, {122.0}, 0.0});
+    CHECK(played.capture.protocol == Protocol::cigi);
+    check_poses(played, pose_table(kTraces / "cigi40-f16-climb.csv"), 5e-5);
+    CHECK(packets_by_name(played.statistics) == NamedCounts{{"ig_control", 2500},
+                                                            {"entity_control", 42},
+                                                            {"celestial_sphere_control", 42},
+                                                            {"atmosphere_control", 42},
+                                                            {"view_control", 2500},
+                                                            {"view_definition", 1},
+                                                            {"entity_position", 2500}});
+    CHECK(rejected_by_reason(played.statistics).empty());
+    CHECK(played.statistics.lost + played.statistics.duplicate + played.statistics.reordered +
+              played.statistics.restarts ==
+          0);
+}
+
 TEST_CASE("The host's time stamps of the recorded CIGI flight rise with every pose and keep pace with the capture") {
     const Played played = play("cigi33-737-turn.pcapng", {{47.2}, {122.0}, 0.0});
     const auto& first = played.states.front().pose.value();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <vector>
 
 namespace quadrig {
@@ -28,23 +30,29 @@ double texturing_function(const Texture& texture, double x, double y) {
 }  // namespace
 
 DeckCoverage::DeckCoverage(const Texture& texture, const Translucence& translucence) {
-    constexpr int kPlaces = 1024;
+    constexpr std::size_t kPlaces = 16384;
     double slowest = texture.terms.front().frequency;
     for (const TextureTerm& term : texture.terms) slowest = std::min(slowest, term.frequency);
-    // A hundred of the longest waves each way, at places that fill the square evenly: the generalised golden ratio's
-    // sequence (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+    // Places at random, always the same: a regular pattern could keep step with one of the sines.
     const double side = 100.0 * 2.0 * std::numbers::pi / slowest;
-    std::vector<double> values;
-    for (int i = 0; i < kPlaces; ++i) {
-        double whole = 0.0;
-        values.push_back(texturing_function(texture, side * std::modf(i * 0.7548776662466927, &whole),
-                                            side * std::modf(i * 0.5698402909980532, &whole)));
+    std::mt19937_64 random;
+    const auto place = [&] { return side * std::ldexp(static_cast<double>(random() >> 11), -53); };
+    std::vector<double> values(kPlaces), sums(kPlaces + 1, 0.0);
+    for (double& value : values) {
+        const double x = place(), y = place();
+        value = texturing_function(texture, x, y);
     }
+    std::sort(values.begin(), values.end());
+    std::partial_sum(values.begin(), values.end(), sums.begin() + 1);
     const double half = 0.5 * translucence.softness;
     const auto covered = [&](double threshold) {
-        double opacity = 0.0;
-        for (const double t : values) opacity += std::clamp((t - threshold) / translucence.softness + 0.5, 0.0, 1.0);
-        return opacity / kPlaces;
+        const auto below = [&](double t) {
+            return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), t) - values.begin());
+        };
+        const std::size_t ramp = below(threshold - half), whole = below(threshold + half);
+        const double on_ramp =
+            (sums[whole] - sums[ramp]) + (half - threshold) * static_cast<double>(whole - ramp);  // times the softness
+        return (on_ramp / translucence.softness + static_cast<double>(kPlaces - whole)) / kPlaces;
     };
     for (std::size_t step = 0; step <= kSteps; ++step) {
         const double coverage = static_cast<double>(step) / kSteps;

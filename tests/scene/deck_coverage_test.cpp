@@ -4,7 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "tests/ig_core/randomness.h"
 
 using namespace quadrig;
 
@@ -28,10 +29,9 @@ double equation_15(const Texture& texture, double x, double y) {
 }  // namespace
 
 TEST_CASE("The threshold for a share of the sky covers that share of a deck, whatever its texture") {
-    const std::uint64_t seed = std::random_device{}();
-    INFO("seed " << seed);
-    std::mt19937_64 random(seed);
-    const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+    CAPTURE(test::seed());
+    test::Randomness random(1);
+    const auto between = [&](double a, double b) { return random.between(a, b); };
     for (int i = 0; i < 10; ++i) {
         Texture texture;
         texture.vertical = i % 2 == 0 ? 0.0 : between(0.0, 1.0);

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "host_link/cigi_axes.h"
 #include "host_link/cigi_query.h"
 #include "host_link/entity_motion.h"
 #include "host_link/session.h"
@@ -16,12 +17,7 @@ namespace {
 // Where the plumb line for a height begins above the test point or the ellipsoid, and ends below the ellipsoid.
 constexpr double kAboveAll = 1e5, kBelowAll = 2e4;
 
-bool below(double limit, const std::array<double, 3>& values) {
-    return std::ranges::all_of(values, [&](double x) { return std::abs(x) <= limit; });
-}
-
-/// Axes of the wire: X forward, Y right, Z down. Ours: right, forward, up.
-glm::dvec3 from_wire(const std::array<double, 3>& v) { return {v[1], v[0], -v[2]}; }
+glm::dvec3 from_wire(const std::array<double, 3>& v) { return cigi::turn_axes(v[0], v[1], v[2]); }
 std::array<double, 3> to_wire(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
 
 /// Of a direction (right or east, forward or north, up).
@@ -40,7 +36,7 @@ std::optional<ScenePose> Session::body_of(std::uint16_t id, Time at) const { ret
 std::optional<ScenePoint> Session::point_of(const std::array<double, 3>& at, bool entity, std::uint16_t id,
                                             Time arrival) {
     if (entity) {
-        if (!below(kFarthestOffset, at)) return std::nullopt;
+        if (!cigi::below(kFarthestOffset, at)) return std::nullopt;
         const auto body = body_of(id, arrival);
         if (!body) return std::nullopt;
         return ScenePoint{body->position.metres + glm::transpose(body->eye_from_scene) * from_wire(at)};

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "host_link/cigi_axes.h"
 #include "host_link/cigi_query.h"
 #include "host_link/session.h"
 
@@ -41,13 +42,11 @@ void Session::look_around(const Asking& asking) {
 }
 
 void Session::apply(const cigi::CollisionSegmentDefinition& packet) {
-    const auto sound = [](const std::array<float, 3>& point) {
-        return std::ranges::all_of(point, [](float x) { return std::abs(x) <= kFarthestOffset; });
-    };
     const auto first = segments_.begin(), end = first + static_cast<std::ptrdiff_t>(segment_count_);
     const auto known = std::find_if(
         first, end, [&](const auto& s) { return s.entity == packet.entity && s.segment == packet.segment; });
-    if (!sound(packet.from) || !sound(packet.to) || (packet.enable && packet.from == packet.to)) {
+    if (!cigi::below(kFarthestOffset, packet.from) || !cigi::below(kFarthestOffset, packet.to) ||
+        (packet.enable && packet.from == packet.to)) {
         reject(Reject::out_of_range);
         return;
     }
@@ -71,7 +70,7 @@ void Session::tell_collisions(const Asking& asking) {
         const auto body = body_of(segment.entity, asking.arrival);
         if (entity == nullptr || !entity->detects_collisions || !body) continue;
         const auto point = [&](const std::array<float, 3>& p) {
-            return body->position.metres + glm::transpose(body->eye_from_scene) * glm::dvec3(p[1], p[0], -p[2]);
+            return body->position.metres + glm::transpose(body->eye_from_scene) * cigi::turn_axes(p[0], p[1], p[2]);
         };
         const glm::dvec3 from = point(segment.from), way = point(segment.to) - from;
         const double length = glm::length(way);

@@ -1,9 +1,10 @@
 // Where a CIGI host puts its entities, the ownship among them.
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "host_link/cigi_axes.h"
 #include "host_link/entity_motion.h"
 #include "host_link/session.h"
 
@@ -13,14 +14,6 @@ namespace {
 
 // m/s and degrees a second: more is garbled.
 constexpr double kFastest = 1e5;
-
-/// Axes of the wire: X forward (north), Y right (east), Z down. Ours: right, forward, up. A proper turn of axes, so
-/// that it holds for axes of rotation too.
-glm::dvec3 from_wire(double x, double y, double z) { return {y, x, -z}; }
-
-bool below(double limit, std::initializer_list<double> values) {
-    return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= limit; });
-}
 
 Attitude attitude_of(const cigi::EntityPosition& packet) { return {{packet.yaw}, {packet.pitch}, {packet.roll}}; }
 
@@ -124,7 +117,7 @@ void Session::place_ownship(const PoseSample& sample) {
 
 void Session::attach(const cigi::EntityPosition& packet, const Asking& asking) {
     const Attitude attitude = attitude_of(packet);
-    if (!below(kFarthestOffset, {packet.latitude, packet.longitude, packet.altitude}) ||
+    if (!cigi::below(kFarthestOffset, std::array{packet.latitude, packet.longitude, packet.altitude}) ||
         !in_range(GeodeticPosition{}, attitude)) {
         reject(Reject::out_of_range);
         return;
@@ -137,13 +130,13 @@ void Session::attach(const cigi::EntityPosition& packet, const Asking& asking) {
     }
     Entity* entity = entity_for(packet.entity);
     if (entity == nullptr) return;
-    const glm::dvec3 offset = from_wire(packet.latitude, packet.longitude, packet.altitude);
+    const glm::dvec3 offset = cigi::turn_axes(packet.latitude, packet.longitude, packet.altitude);
     put(*entity, {{offset}, eye_from_scene_rotation(attitude)}, glm::dmat3(1.0), packet.parent, asking.arrival);
 }
 
 void Session::apply(const cigi::RateControl& packet, Time arrival) {
     if (packet.apply_to_part) return;
-    if (!below(kFastest, {packet.x, packet.y, packet.z, packet.roll, packet.pitch, packet.yaw})) {
+    if (!cigi::below(kFastest, std::array{packet.x, packet.y, packet.z, packet.roll, packet.pitch, packet.yaw})) {
         reject(Reject::out_of_range);
         return;
     }
@@ -152,8 +145,8 @@ void Session::apply(const cigi::RateControl& packet, Time arrival) {
     // Where the rates till now have brought it.
     entity->pose = predicted(*entity, arrival);
     entity->since = arrival;
-    const auto turn = from_wire(packet.roll, packet.pitch, packet.yaw);
-    entity->rates = {from_wire(packet.x, packet.y, packet.z), glm::radians(turn), packet.local};
+    const auto turn = cigi::turn_axes(packet.roll, packet.pitch, packet.yaw);
+    entity->rates = {cigi::turn_axes(packet.x, packet.y, packet.z), glm::radians(turn), packet.local};
 }
 
 }  // namespace quadrig::host

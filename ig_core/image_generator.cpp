@@ -162,7 +162,7 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
     worker.strip_cover.clear(rows[0].columns);
     for (const std::uint32_t place : objects.on(strip)) {
         const ImageBounds& around = objects.bounds(place);
-        const double near_u = around.in_front() ? 1.0 / around.nearest : 1.0 / kNearDepth;
+        const double near_u = around.near_u();
         const double from = rows[0].column(around.x_from), to = rows[0].column(around.x_to);
         if (worker.strip_cover.hides(from, to, near_u)) continue;
         const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;

@@ -14,7 +14,9 @@ struct ImageBounds {
     double z_from = -std::numeric_limits<double>::infinity(), z_to = std::numeric_limits<double>::infinity();
     double nearest = -std::numeric_limits<double>::infinity(), farthest = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }    ///< all of it
+    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }  ///< all of it
+    /// 1/k is nowhere greater.
+    [[nodiscard]] double near_u() const { return 1.0 / (in_front() ? nearest : kNearDepth); }
     [[nodiscard]] bool behind() const { return !(farthest > kNearDepth); }  ///< all of it: nothing is seen
 };
 

@@ -180,7 +180,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 
     const ImageBounds bounds = image_bounds(solid, eye, eye_from_scene);
     const bool near_plane = !bounds.in_front();
-    out.near_u = near_plane ? 1.0 / kNearDepth : 1.0 / bounds.nearest;
+    out.near_u = bounds.near_u();
     out.far_u = bounds.farthest > 0.0 ? 1.0 / bounds.farthest : 0.0;
     const bool endless = solid.may_be_endless;
     look_at(solid, eye, eye_from_scene, near_plane, endless, set_up, out.solid);

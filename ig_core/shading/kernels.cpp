@@ -145,12 +145,14 @@ void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgb
     const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
     alignas(64) std::int32_t pixels[64];
     for (std::size_t i = 0; i < total; i += n) {
-        const auto r = srgb8(d, hn::LoadU(d, row.red.data() + i));
-        const auto g = srgb8(d, hn::LoadU(d, row.green.data() + i));
-        const auto b = srgb8(d, hn::LoadU(d, row.blue.data() + i));
-        const auto rg = hn::Or(r, hn::ShiftLeft<8>(g));
-        const auto packed =
-            hn::Or(rg, hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xFF000000U))));
+        // To the nearest: the low bits of 1.5 * 2^23 + x are those of the integer. The others cancel in the sum.
+        const auto rounded = [&](const std::vector<float>& plane) HWY_ATTR {
+            return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, 12582912.0F)));
+        };
+        constexpr std::uint32_t kWhole = 0x4B400000U, kOpaque = 0xFF000000U;
+        constexpr auto kRest = static_cast<std::int32_t>(kOpaque - kWhole - (kWhole << 8) - (kWhole << 16));
+        const auto rg = hn::Add(rounded(row.red), hn::ShiftLeft<8>(rounded(row.green)));
+        const auto packed = hn::Add(hn::Add(rg, hn::Set(di, kRest)), hn::ShiftLeft<16>(rounded(row.blue)));
         if (i + n <= total) {
             hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
         } else {

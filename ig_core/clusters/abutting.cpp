@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace quadrig::clusters {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostPairs = 4'000'000;
+constexpr std::size_t kMostPairs = 4'000'000, kMostCompared = 400'000'000;
 
 bool same_form(const Sym3& a, const Sym3& b) {
     return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
@@ -30,11 +31,12 @@ struct Pair {
     std::size_t a, b;
 };
 
-/// Pairs that abut. Objects are put into bands of Y as wide as two can reach, in each of which they are swept along X.
-std::vector<Pair> abutting_pairs(std::span<const Adjacent> objects) {
+/// Pairs that abut; absent where there are too many, or too many to compare. Objects are put into bands of Y as wide as
+/// two can reach, in each of which they are swept along X.
+std::optional<std::vector<Pair>> abutting_pairs(std::span<const Adjacent> objects) {
     double reach = 0.0;
     for (const Adjacent& object : objects) reach = std::max(reach, object.quadric.reach);
-    if (!(reach > 0.0)) return {};
+    if (!(reach > 0.0)) return std::vector<Pair>();
     std::map<double, std::vector<std::size_t>> bands;
     for (std::size_t i = 0; i < objects.size(); ++i)
         bands[std::floor(objects[i].quadric.centre.y / (2.0 * reach))].push_back(i);
@@ -44,22 +46,24 @@ std::vector<Pair> abutting_pairs(std::span<const Adjacent> objects) {
                   [&](auto i, auto j) { return std::tuple(x(i), i) < std::tuple(x(j), j); });
 
     std::vector<Pair> pairs;
+    std::size_t compared = 0;
     const auto consider = [&](std::size_t i, std::size_t j) {
         const auto [a, b] = std::minmax(i, j);
         const CentredQuadric &qa = objects[a].quadric, &qb = objects[b].quadric;
-        if (pairs.size() <= kMostPairs && abut(qa, qb)) pairs.push_back({gap(qa, qb), a, b});
+        if (abut(qa, qb)) pairs.push_back({gap(qa, qb), a, b});
+        return ++compared <= kMostCompared && pairs.size() <= kMostPairs;
     };
     for (const auto& [band, members] : bands) {
         for (std::size_t m = 0; m < members.size(); ++m)
             for (std::size_t n = m + 1; n < members.size() && x(members[n]) - x(members[m]) <= 2.0 * reach; ++n)
-                consider(members[m], members[n]);
+                if (!consider(members[m], members[n])) return std::nullopt;
         const auto next = bands.find(band + 1.0);
         if (next == bands.end()) continue;
         std::size_t first = 0;
         for (const std::size_t i : members) {
             while (first < next->second.size() && x(next->second[first]) < x(i) - 2.0 * reach) ++first;
             for (std::size_t n = first; n < next->second.size() && x(next->second[n]) <= x(i) + 2.0 * reach; ++n)
-                consider(i, next->second[n]);
+                if (!consider(i, next->second[n])) return std::nullopt;
         }
     }
     return pairs;
@@ -114,15 +118,15 @@ BoundingPlane shared_plane(const CentredQuadric& a, const CentredQuadric& b) {
 }
 
 bool cut_where_they_abut(std::span<Adjacent> objects, int most_neighbours) {
-    std::vector<Pair> pairs = abutting_pairs(objects);
-    if (pairs.size() > kMostPairs) return false;
-    std::sort(pairs.begin(), pairs.end(),
+    std::optional<std::vector<Pair>> pairs = abutting_pairs(objects);
+    if (!pairs) return false;
+    std::sort(pairs->begin(), pairs->end(),
               [](const Pair& p, const Pair& q) { return std::tuple(p.gap, p.a, p.b) < std::tuple(q.gap, q.a, q.b); });
     std::vector<int> neighbours(objects.size(), 0);
     const auto has_room = [&](std::size_t i) {
         return neighbours[i] < most_neighbours && objects[i].object->planes.size() < std::size_t{kMaxPlanes};
     };
-    for (const Pair& pair : pairs) {
+    for (const Pair& pair : *pairs) {
         if (!has_room(pair.a) || !has_room(pair.b)) continue;
         const BoundingPlane keeps_a = shared_plane(objects[pair.a].quadric, objects[pair.b].quadric);
         const auto& p = keeps_a.coefficients;

@@ -41,7 +41,8 @@ struct Adjacent {
 };
 /// Cuts objects by the planes they share with their neighbours, the deepest intersections first, no object by more than
 /// `most_neighbours` or to more than kMaxPlanes in all. Where an object has more neighbours, those left are merely
-/// overlapped, which looks the same. False where more than 4 million pairs overlap: nothing is cut then.
+/// overlapped, which looks the same. False where more than 4 million pairs overlap, or 400
+/// million are near one another: nothing is cut then.
 [[nodiscard]] bool cut_where_they_abut(std::span<Adjacent> objects, int most_neighbours);
 
 }  // namespace quadrig::clusters

@@ -28,7 +28,8 @@ class Growth {
         for (auto& [index, crop] : crops) {
             const Cluster& cluster = clusters_[index];
             if (cluster.abutting > 0 && !cut(crop, cluster.abutting))
-                throw TooMany(index, "more than 4000000 pairs of objects that overlap");
+                throw TooMany(
+                    index, "more than 4000000 pairs of objects that overlap, or 400000000 that are near one another");
             for (GrownObject& grown : crop) {
                 grown.object.name = cluster.name + "-" + std::to_string(++named_[index]);
                 if (clusters_[root].terrain) terrain_.add(grown.object);

@@ -142,14 +142,15 @@ HWY_INLINE V exp2_minus(D d, V y) {
     return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
 }
 
-/// sRGB of linear light (IEC 61966-2-1), 0..255: a polynomial in sqrt(x), within 0.01 of a step; the linear toe below it.
-/// One square root and eight more terms take half the time of two and four.
+/// sRGB of linear light (IEC 61966-2-1), 0..255: a polynomial in sqrt(x), within 0.01 of a step; the linear toe below
+/// it. One square root and eight more terms take half the time of two and four.
 template <class D>
 HWY_INLINE hn::Vec<D> srgb_steps(D d, hn::Vec<D> linear) {
     const auto x = hn::Clamp(linear, hn::Zero(d), hn::Set(d, 1.0F));
     const auto s = hn::Sqrt(x);
     auto p = hn::MulAdd(s, hn::Set(d, -954.691518F), hn::Set(d, 4392.71385F));
-    for (const float c : {-8546.71752F, 9194.17448F, -6031.03567F, 2545.84316F, -758.732525F, 424.904054F, -11.4673457F})
+    for (const float c :
+         {-8546.71752F, 9194.17448F, -6031.03567F, 2545.84316F, -758.732525F, 424.904054F, -11.4673457F})
         p = hn::MulAdd(s, p, hn::Set(d, c));
     const auto toe = hn::Mul(x, hn::Set(d, 12.92F * 255.0F));
     return hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.0031308F)), toe, p);

@@ -231,4 +231,7 @@ TEST_CASE("too many places or objects are refused before they are made, with the
     Cluster nest = cluster_of("nest", ball(), 1000, 1500);
     nest.templates = {{1.0, std::size_t{0}}};
     CHECK(refused({many, nest}) == 0);
+    Cluster heap = downs();
+    heap.spacing = 15;
+    CHECK(refused({heap}) == 0);
 }

@@ -9,6 +9,7 @@
 
 #include "config/shipped_ladder.h"
 #include "config/toml_section.h"
+#include "config/toml_text.h"
 
 namespace quadrig::config {
 namespace {
@@ -114,7 +115,7 @@ void write_quality_ladder(const QualityLadder& ladder, std::ostream& out) {
     const Quality usual;
     for (const QualityStep& step : ladder) {
         const Quality& q = step.quality;
-        out << "\n[[quality]]\nname = \"" << step.name << "\"\ncost = " << std::fixed << std::setprecision(2)
+        out << "\n[[quality]]\nname = " << Quoted{step.name} << "\ncost = " << std::fixed << std::setprecision(2)
             << step.cost << "\npsnr = " << std::setprecision(1) << step.psnr << std::defaultfloat
             << std::setprecision(6) << "\nsub_scan_lines = " << q.sub_scan_lines << '\n';
         if (q.set_up != usual.set_up) out << "set_up = \"" << name_of(kSetUps, q.set_up) << "\"\n";
@@ -124,7 +125,8 @@ void write_quality_ladder(const QualityLadder& ladder, std::ostream& out) {
         if (q.smooth_stretches != usual.smooth_stretches)
             out << "smooth_stretches = " << (q.smooth_stretches ? "true" : "false") << '\n';
         if (q.shading != usual.shading) out << "shading = \"" << name_of(kShadingRates, q.shading) << "\"\n";
-        if (q.smallest_feature != usual.smallest_feature) out << "smallest_feature = " << q.smallest_feature << '\n';
+        if (q.smallest_feature != usual.smallest_feature)
+            out << "smallest_feature = " << Exact{q.smallest_feature} << '\n';
     }
 }
 

@@ -23,16 +23,20 @@ constexpr std::size_t kFineStride = 4, kCoarseStride = 16;
 constexpr float kLargestPhaseStep = 0.8F;
 constexpr std::size_t kBlockIntervals = 12;
 
-struct SampleValues {
-    alignas(64) float at[kBlockIntervals + 4 + kShadePadding];
-};
-struct BlockValues {
-    alignas(64) float at[kBlockIntervals * kCoarseStride + kShadePadding];
+template <std::size_t kCount>
+struct Values {
+    alignas(64) float at[kCount + kShadePadding];
     template <class D>
-    [[nodiscard]] HWY_INLINE hn::Vec<D> load(D d, std::size_t column) const {
-        return hn::Load(d, at + column);
+    [[nodiscard]] HWY_INLINE hn::Vec<D> load(D d, std::size_t i) const {
+        return hn::Load(d, at + i);
+    }
+    template <class D>
+    HWY_INLINE void store(D d, hn::Vec<D> values, std::size_t i) {
+        hn::Store(values, d, at + i);
     }
 };
+using SampleValues = Values<kBlockIntervals + 4>;
+using BlockValues = Values<kBlockIntervals * kCoarseStride>;
 
 /// Cubic through samples -1, 0, 1, 2 (Lagrange), at `share` of the way from sample 0 to sample 1.
 template <class D, class V = hn::Vec<D>>

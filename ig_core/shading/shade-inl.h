@@ -18,11 +18,81 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 HWY_INLINE int term_count(const ShadeInput& in) { return in.paint->texture == nullptr ? 0 : in.paint->texture->count; }
 
-/// Sums of the slower terms of a texture on a block of columns.
-struct SlowTerms {
-    int count = 0;  ///< terms taken care of
-    BlockValues x, y, lost_x, lost_y;
+/// What light, haze and filtering make of a surface point, whatever its texture.
+template <class V>
+struct Setting {
+    V lit;   ///< intensity without texture
+    V kept;  ///< what the haze lets through
+    Footprint<V> footprint;
+    V threshold;  ///< of translucence
 };
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const SurfacePoint<V>& point,
+                                 const Footprint<V>& footprint) {
+    const V one = hn::Set(d, 1.0F);
+    const FrameLight& light = *in.light;
+    const FramePaint& paint = *in.paint;
+    const V facing = hn::Max(hn::Zero(d), hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
+    const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
+    Setting<V> setting{lit, one, footprint, one};
+    if (light.haze) setting.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), hn::Set(d, light.extinction)));
+    if (paint.translucent)
+        setting.threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
+                                       hn::Sub(one, limb_share(d, in, point)), hn::Set(d, paint.threshold));
+    return setting;
+}
+
+/// Settings of many points.
+template <class Values>
+struct Settings {
+    Values lit, kept, footprint_x, footprint_y, threshold;
+
+    template <class D>
+    [[nodiscard]] HWY_INLINE Setting<hn::Vec<D>> load(D d, std::size_t i) const {
+        return {
+            lit.load(d, i), kept.load(d, i), {footprint_x.load(d, i), footprint_y.load(d, i)}, threshold.load(d, i)};
+    }
+    template <class D, class V = hn::Vec<D>>
+    HWY_INLINE void store(D d, const Setting<V>& setting, std::size_t i) {
+        lit.store(d, setting.lit, i), kept.store(d, setting.kept, i), threshold.store(d, setting.threshold, i);
+        footprint_x.store(d, setting.footprint.x, i), footprint_y.store(d, setting.footprint.y, i);
+    }
+};
+
+/// Sums of a texture's terms, of many points.
+template <class Values>
+struct SumsOfTerms {
+    Values x, y, lost_x, lost_y;
+
+    template <class D>
+    [[nodiscard]] HWY_INLINE TextureSums<hn::Vec<D>> load(D d, std::size_t i, bool lost_variance) const {
+        if (!lost_variance) return {x.load(d, i), y.load(d, i), hn::Zero(d), hn::Zero(d)};
+        return {x.load(d, i), y.load(d, i), lost_x.load(d, i), lost_y.load(d, i)};
+    }
+    template <class D, class V = hn::Vec<D>>
+    HWY_INLINE void store(D d, const TextureSums<V>& sums, std::size_t i) {
+        x.store(d, sums.x, i), y.store(d, sums.y, i), lost_x.store(d, sums.lost_x, i), lost_y.store(d, sums.lost_y, i);
+    }
+};
+
+/// What is known of a block of columns by interpolation: the sums of the texture's first terms, and, if it is steady,
+/// the setting.
+struct KnownBlock {
+    int terms = 0;
+    bool steady = false;
+    SumsOfTerms<BlockValues> sums;
+    Settings<BlockValues> setting;
+};
+
+/// Terms [first, last) of the surface's texture at a point, added to `sums`.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void add_terms_at(D d, const ShadeInput& in, int first, int last, const Vec3<V>& ray, V depth,
+                             const Footprint<V>& footprint, TextureSums<V>& sums) {
+    if (first >= last) return;
+    const Vec3<V> p{hn::Mul(depth, ray.x), hn::Mul(depth, ray.y), hn::Mul(depth, ray.z)};
+    add_terms(d, *in.paint->texture, in.paint->translucent, first, last, p, footprint.x, footprint.y, sums);
+}
 
 /// What varies over a surface.
 template <class V>
@@ -32,46 +102,41 @@ struct Appearance {
     V edge;   ///< opacity, before it is cut to 0..1
 };
 
-/// Appearance of a surface at a few columns. `slow` has the texture's first terms, at `in_block` and on.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Appearance<V> appearance(D d, const ShadeInput& in, V column, const SlowTerms& slow, std::size_t in_block) {
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
-    const FrameLight& light = *in.light;
+HWY_INLINE Appearance<V> painted(D d, const ShadeInput& in, const Setting<V>& setting, const TextureSums<V>& sums) {
     const FramePaint& paint = *in.paint;
-    const Vec3<V> ray = ray_at(d, in, column);
-    const V length = vector_length(d, ray);
-    const SurfacePoint<V> point = on_surface(d, in, column, ray);
-    const V facing = hn::Max(zero, hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
-    const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
-    Appearance<V> seen{lit, one, one};
+    Appearance<V> seen{setting.lit, setting.kept, hn::Set(d, 1.0F)};
     if (paint.texture != nullptr) {
-        const FrameTexture& texture = *paint.texture;
-        auto sums = TextureSums<V>::none(d);
-        if (slow.count > 0) {
-            sums.x = slow.x.load(d, in_block), sums.y = slow.y.load(d, in_block);
-            if (paint.translucent)
-                sums.lost_x = slow.lost_x.load(d, in_block), sums.lost_y = slow.lost_y.load(d, in_block);
-        }
-        if (slow.count < texture.count) {
-            const Footprint<V> f = pixel_footprint(d, in, point, ray, length).pixel;
-            const Vec3<V> p{hn::Mul(point.depth, ray.x), hn::Mul(point.depth, ray.y), hn::Mul(point.depth, ray.z)};
-            add_terms(d, texture, paint.translucent, slow.count, texture.count, p, f.x, f.y, sums);
-        }
         const TextureSample<V> t = sums.sample();
-        seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t.value, lit), lit);
+        seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t.value, setting.lit), setting.lit);
         if (paint.translucent) {
-            const V threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
-                                           hn::Sub(one, limb_share(d, in, point)), hn::Set(d, paint.threshold));
             // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance s^2/12.
             const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), t.lost_variance, hn::Set(d, paint.softness * paint.softness));
-            seen.edge = hn::MulAdd(hn::Sub(t.value, threshold), inverse_sqrt(d, ramp2), hn::Set(d, 0.5F));
+            seen.edge = hn::MulAdd(hn::Sub(t.value, setting.threshold), inverse_sqrt(d, ramp2), hn::Set(d, 0.5F));
         }
     }
-    if (light.haze) {
-        seen.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), hn::Set(d, light.extinction)));
-        seen.light = hn::Mul(seen.light, seen.kept);
-    }
+    if (in.light->haze) seen.light = hn::Mul(seen.light, setting.kept);
     return seen;
+}
+
+/// Appearance of a surface at a few columns, at `in_block` and on of what is known of a block already.
+template <bool kSteady, class D, class V = hn::Vec<D>>
+HWY_INLINE Appearance<V> appearance(D d, const ShadeInput& in, V column, const KnownBlock& known,
+                                    std::size_t in_block) {
+    const Vec3<V> ray = ray_at(d, in, column);
+    const SurfacePoint<V> point = on_surface(d, in, column, ray);
+    Setting<V> setting;
+    if constexpr (kSteady) {
+        setting = known.setting.load(d, in_block);
+    } else {
+        const V length = vector_length(d, ray);
+        Footprint<V> footprint{hn::Zero(d), hn::Zero(d)};
+        if (in.paint->texture != nullptr) footprint = pixel_footprint(d, in, point, ray, length).pixel;
+        setting = setting_at(d, in, length, point, footprint);
+    }
+    auto sums = known.terms > 0 ? known.sums.load(d, in_block, in.paint->translucent) : TextureSums<V>::none(d);
+    add_terms_at(d, in, known.terms, term_count(in), ray, point.depth, setting.footprint, sums);
+    return painted(d, in, setting, sums);
 }
 
 /// `kPixels` neighbours are given each sample.
@@ -92,14 +157,17 @@ HWY_INLINE void store(D d, const ShadeInput& in, const Appearance<V>& seen, Shad
     write(hn::Clamp(seen.edge, hn::Zero(d), hn::Set(d, 1.0F)), buffer.opacity);
 }
 
-/// What the samples of a block tell about it.
+/// A block's samples, and what they tell about it.
 struct BlockProbe {
+    SampleValues depth;
+    Settings<SampleValues> setting;
     int slow_terms = 0;   ///< terms that may be interpolated between samples
-    bool smooth = false;  ///< all of them, and light, haze and opacity too
+    bool steady = false;  ///< the setting may be, too
+    bool smooth = false;  ///< all of that
 };
 
-/// Samples are taken a little beyond a surface's ends too, where its equation goes on; near a limb nothing is smooth.
-HWY_NOINLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& samples) {
+/// Samples are taken a little beyond a surface's ends too, where its equation goes on; near a limb nothing is steady.
+HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples, BlockProbe& probe) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const auto stride = static_cast<float>(samples.stride);
@@ -108,18 +176,19 @@ HWY_NOINLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& sa
     V growth2[kMaxTextureTerms];
     for (int i = 0; i < terms; ++i) growth2[i] = hn::Zero(d);
     float least_facing = 1.0F, most_facing = -1.0F;
-    bool smooth = true;
+    probe.steady = true;
     for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
         const V column = samples.column(d, i);
         const Vec3<V> ray = ray_at(d, in, column);
+        const V length = vector_length(d, ray);
         const SurfacePoint<V> point = on_surface(d, in, column, ray);
         const bool steady = changes_little(d, in, column, stride, point);
-        smooth = smooth && steady;
+        probe.steady = probe.steady && steady;
         const V facing = dot(point.normal, splat(d, in.light->to_sun));
         least_facing = std::min(least_facing, hn::GetLane(hn::MinOfLanes(d, facing)));
         most_facing = std::max(most_facing, hn::GetLane(hn::MaxOfLanes(d, facing)));
-        if (terms == 0) continue;
-        const PixelFootprint<V> f = pixel_footprint(d, in, point, ray, vector_length(d, ray));
+        PixelFootprint<V> f{{hn::Zero(d), hn::Zero(d)}, {hn::Zero(d), hn::Zero(d)}};
+        if (terms > 0) f = pixel_footprint(d, in, point, ray, length);
         const V step2 = hn::Max(f.column.x, f.column.y), pixel2 = hn::Min(f.pixel.x, f.pixel.y);
         for (int t = 0; t < terms; ++t) {
             const float w = in.paint->texture->terms[static_cast<std::size_t>(t)].turns_per_metre;
@@ -128,66 +197,72 @@ HWY_NOINLINE BlockProbe probe_block(const ShadeInput& in, const BlockSamples& sa
             const auto counts = hn::Lt(hn::Mul(w2, pixel2), hn::Set(d, steady ? 48.0F : 1e30F));
             growth2[t] = hn::Max(growth2[t], hn::IfThenElseZero(counts, hn::Mul(w2, step2)));
         }
+        probe.depth.store(d, point.depth, i);
+        probe.setting.store(d, setting_at(d, in, length, point, f.pixel), i);
     }
-    BlockProbe probe;
+    probe.slow_terms = 0;
     const V most = hn::Set(d, kLargestPhaseStep * kLargestPhaseStep / (stride * stride));
     while (probe.slow_terms < terms && hn::AllTrue(d, hn::Le(growth2[probe.slow_terms], most))) ++probe.slow_terms;
     // The shadow's border is a kink.
-    probe.smooth = smooth && probe.slow_terms == terms && (least_facing >= 0.0F || most_facing <= 0.0F);
-    return probe;
+    probe.steady = probe.steady && (least_facing >= 0.0F || most_facing <= 0.0F);
+    probe.smooth = probe.steady && probe.slow_terms == terms;
 }
 
 /// A smooth block: its samples shaded, the rest interpolated.
-HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, std::size_t count,
-                               ShadeBuffer& buffer, std::size_t offset) {
+HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
+                               std::size_t count, ShadeBuffer& buffer, std::size_t offset) {
     const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
     const std::size_t n = hn::Lanes(d);
-    SlowTerms none;
-    none.count = 0;
     SampleValues light, kept, edge;
     for (std::size_t i = 0; i < BlockSamples::kCount; i += n) {
-        const auto seen = appearance(d, in, samples.column(d, i), none, 0);
-        hn::Store(seen.light, d, light.at + i);
-        hn::Store(seen.kept, d, kept.at + i);
-        hn::Store(seen.edge, d, edge.at + i);
+        const Setting<V> setting = probe.setting.load(d, i);
+        auto sums = TextureSums<V>::none(d);
+        add_terms_at(d, in, 0, term_count(in), ray_at(d, in, samples.column(d, i)), probe.depth.load(d, i),
+                     setting.footprint, sums);
+        const Appearance<V> seen = painted(d, in, setting, sums);
+        light.store(d, seen.light, i), kept.store(d, seen.kept, i), edge.store(d, seen.edge, i);
     }
     BlockValues all_light, all_kept, all_edge;
     samples.interpolate(light, all_light);
     if (in.light->haze) samples.interpolate(kept, all_kept);
     if (in.paint->translucent) samples.interpolate(edge, all_edge);
     for (std::size_t i = 0; i < count; i += n) {
-        Appearance<hn::Vec<decltype(d)>> seen{all_light.load(d, i), hn::Set(d, 1.0F), hn::Set(d, 1.0F)};
+        Appearance<V> seen{all_light.load(d, i), hn::Set(d, 1.0F), hn::Set(d, 1.0F)};
         if (in.light->haze) seen.kept = all_kept.load(d, i);
         if (in.paint->translucent) seen.edge = all_edge.load(d, i);
         store(d, in, seen, buffer, offset + i);
     }
 }
 
-/// Sums of the texture's first `terms` terms on a block.
-HWY_NOINLINE void sample_slow_terms(const ShadeInput& in, const BlockSamples& samples, int terms, SlowTerms& slow) {
+/// Interpolates what may be between the samples of a block.
+HWY_NOINLINE void interpolate_block(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
+                                    KnownBlock& known) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
-    slow.count = terms;
-    if (terms == 0) return;
-    SampleValues x, y, lost_x, lost_y;
-    for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
-        const V column = samples.column(d, i);
-        const Vec3<V> ray = ray_at(d, in, column);
-        const SurfacePoint<V> point = on_surface(d, in, column, ray);
-        const Footprint<V> f = pixel_footprint(d, in, point, ray, vector_length(d, ray)).pixel;
-        const Vec3<V> p{hn::Mul(point.depth, ray.x), hn::Mul(point.depth, ray.y), hn::Mul(point.depth, ray.z)};
-        auto sums = TextureSums<V>::none(d);
-        add_terms(d, *in.paint->texture, in.paint->translucent, 0, terms, p, f.x, f.y, sums);
-        hn::Store(sums.x, d, x.at + i);
-        hn::Store(sums.y, d, y.at + i);
-        hn::Store(sums.lost_x, d, lost_x.at + i);
-        hn::Store(sums.lost_y, d, lost_y.at + i);
+    known.terms = probe.slow_terms;
+    known.steady = probe.steady;
+    if (known.terms > 0) {
+        SumsOfTerms<SampleValues> at;
+        for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
+            auto sums = TextureSums<V>::none(d);
+            add_terms_at(d, in, 0, known.terms, ray_at(d, in, samples.column(d, i)), probe.depth.load(d, i),
+                         probe.setting.load(d, i).footprint, sums);
+            at.store(d, sums, i);
+        }
+        samples.interpolate(at.x, known.sums.x);
+        samples.interpolate(at.y, known.sums.y);
+        if (in.paint->translucent) {
+            samples.interpolate(at.lost_x, known.sums.lost_x);
+            samples.interpolate(at.lost_y, known.sums.lost_y);
+        }
     }
-    samples.interpolate(x, slow.x);
-    samples.interpolate(y, slow.y);
-    if (!in.paint->translucent) return;
-    samples.interpolate(lost_x, slow.lost_x);
-    samples.interpolate(lost_y, slow.lost_y);
+    if (!known.steady) return;
+    samples.interpolate(probe.setting.lit, known.setting.lit);
+    samples.interpolate(probe.setting.footprint_x, known.setting.footprint_x);
+    samples.interpolate(probe.setting.footprint_y, known.setting.footprint_y);
+    if (in.light->haze) samples.interpolate(probe.setting.kept, known.setting.kept);
+    if (in.paint->translucent) samples.interpolate(probe.setting.threshold, known.setting.threshold);
 }
 
 /// One sample for every two pixels, taken where they meet.
@@ -196,11 +271,10 @@ HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::si
     using V = hn::Vec<decltype(d)>;
     const std::size_t n = hn::Lanes(d);
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
-    SlowTerms none;
-    none.count = 0;
+    KnownBlock none;
     for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); i += 2 * n) {
         const V column = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, 2.0F), hn::Set(d, static_cast<float>(i) + 0.5F));
-        const auto seen = appearance(d, in, hn::Clamp(column, least, most), none, 0);
+        const auto seen = appearance<false>(d, in, hn::Clamp(column, least, most), none, 0);
         store<2>(d, in, seen, buffer, offset + i);
     }
 }
@@ -211,7 +285,8 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
     using V = hn::Vec<decltype(d)>;
     const auto total = static_cast<std::size_t>(in.count);
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
-    SlowTerms slow;
+    KnownBlock known;
+    BlockProbe probe;
     bool coarse = in.smooth_stretches && in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
     bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
@@ -219,33 +294,36 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
         // A block much shorter than its samples reach is as soon done without.
         if (coarse && left >= BlockSamples::columns(kCoarseStride) / 2) {
             const BlockSamples samples{i, kCoarseStride};
-            if (probe_block(in, samples).smooth) {
+            probe_block(in, samples, probe);
+            if (probe.smooth) {
                 const std::size_t count = std::min(left, BlockSamples::columns(kCoarseStride));
-                shade_smooth(in, samples, count, buffer, offset + i);
+                shade_smooth(in, samples, probe, count, buffer, offset + i);
                 i += count;
                 continue;
             }
         }
         coarse = false;
-        slow.count = 0;
+        known.terms = 0, known.steady = false;
         const std::size_t count = std::min(left, BlockSamples::columns(kFineStride));
         if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
             const BlockSamples samples{i, kFineStride};
-            const BlockProbe probe = probe_block(in, samples);
+            probe_block(in, samples, probe);
             if (probe.smooth) {
                 coarse = true;
-                shade_smooth(in, samples, count, buffer, offset + i);
+                shade_smooth(in, samples, probe, count, buffer, offset + i);
                 i += count;
                 continue;
             }
-            sample_slow_terms(in, samples, probe.slow_terms, slow);
-            rough = probe.slow_terms == 0;
+            interpolate_block(in, samples, probe, known);
+            rough = probe.slow_terms == 0 && !probe.steady;
         } else {
             rough = !in.smooth_stretches;
         }
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
             const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);
-            store(d, in, appearance(d, in, column, slow, c), buffer, offset + i + c);
+            const Appearance<V> seen =
+                known.steady ? appearance<true>(d, in, column, known, c) : appearance<false>(d, in, column, known, c);
+            store(d, in, seen, buffer, offset + i + c);
         }
         i += count;
     }

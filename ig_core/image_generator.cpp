@@ -39,6 +39,7 @@ struct RowWorker {
     RowSweep sweep;
     RowShader shader;
     std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
+    std::uint64_t span_count = 0;
 };
 
 }  // namespace
@@ -98,6 +99,7 @@ struct ImageGenerator::Impl {
     StripIndex polygons_on_strips, lights_on_strips;
     std::vector<SeenPolygon> polygons;
     std::vector<SeenLight> lights;
+    FrameWork work;
 };
 
 void ImageGenerator::Impl::move_objects(const Environment& environment) {
@@ -222,7 +224,8 @@ PixelRow pixel_row(const View& view, int r, const Quality& quality) {
 template <class Draw>
 void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, bool everything_opaque,
                                       const PlaneSurfaces& seen_planes, Draw&& draw) {
-    for (RowWorker& worker : row_workers) worker.outline_time = worker.sweep_time = worker.draw_time = {};
+    for (RowWorker& worker : row_workers)
+        worker.outline_time = worker.sweep_time = worker.draw_time = {}, worker.span_count = 0;
     const int height = view.image.height;
     const auto task = [&](int strip, int worker) {
         RowWorker& own = row_workers[static_cast<std::size_t>(worker)];
@@ -237,6 +240,7 @@ void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, 
         own.sweep_time += before - start - (own.outline_time - outlines_before);
         for (std::size_t r = 0; r < used; ++r) {
             own.sweep.spans.swap(own.spans[r]);
+            own.span_count += own.sweep.spans.size();
             own.sweep.sweep(rows[r]);
             const auto swept = Clock::now();
             draw(rows[r], own);
@@ -253,6 +257,7 @@ ImageGenerator::ImageGenerator(Scene scene, int threads)
     : impl_(std::make_unique<Impl>(std::move(scene), std::max(1, threads))) {}
 ImageGenerator::~ImageGenerator() = default;
 const Scene& ImageGenerator::scene() const { return impl_->scene; }
+const FrameWork& ImageGenerator::work() const { return impl_->work; }
 std::string_view ImageGenerator::simd_target() { return simd_target_name(); }
 
 StageTimes ImageGenerator::render(const View& asked, const Environment& environment, const Quality& quality_asked,
@@ -283,6 +288,16 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
         else
             own.shader.write_averaged(image.width, image.row(row.row / 2));
     });
+
+    g.work = {};
+    g.work.objects = g.objects.count();
+    g.work.outlines = g.objects.outlines_made();
+    g.work.pixels = static_cast<std::uint64_t>(view.image.width) * static_cast<std::uint64_t>(view.image.height);
+    for (RowWorker& worker : g.row_workers) {
+        const RowShader::Work drawn = worker.shader.take_work();
+        g.work.spans += worker.span_count, g.work.stretches += drawn.stretches, g.work.samples += drawn.samples;
+        g.work.terms += drawn.terms, g.work.edge_pixels += drawn.edge_pixels;
+    }
 
     StageTimes times{};
     times[static_cast<std::size_t>(Stage::select)] = selected - start;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
@@ -17,6 +18,18 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{"select",
                                                                        "present"};
 using StageTimes = std::array<std::chrono::nanoseconds, kStageCount>;
 
+/// What there was to do for a frame: what its time is made of.
+struct FrameWork {
+    std::uint64_t objects = 0;      ///< in view
+    std::uint64_t outlines = 0;     ///< made: of those that something may be seen of
+    std::uint64_t spans = 0;        ///< made of them and of all else, the hidden ones that were asked for too
+    std::uint64_t stretches = 0;    ///< of surfaces, shaded at a time
+    std::uint64_t samples = 0;      ///< shaded
+    std::uint64_t terms = 0;        ///< of textures, that samples of their own were asked for
+    std::uint64_t edge_pixels = 0;  ///< that edges pass through
+    std::uint64_t pixels = 0;
+};
+
 /// Draws one scene. Not copyable; one frame at a time. After the first frames it allocates nothing.
 class ImageGenerator {
   public:
@@ -30,6 +43,9 @@ class ImageGenerator {
     /// alternate on every row, so their share is the workers' mean.
     StageTimes render(const View& view, const Environment& environment, const Quality& quality,
                       const FrameImage& image);
+
+    /// What render() did last.
+    [[nodiscard]] const FrameWork& work() const;
 
     /// What is seen at the pixel centres: ids and depth of the geometry, holes ignored (not for the frame loop: it
     /// allocates). Of `quality` counts what decides visibility: set-up, distance rule, smallest feature;

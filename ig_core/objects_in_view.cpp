@@ -64,6 +64,11 @@ void ObjectsInView::sort_by_depth() {
     for (const std::uint32_t object : selected_) front_to_back_[depth_bins_[bin_of(object)]++] = object;
 }
 
+std::size_t ObjectsInView::outlines_made() const {
+    return static_cast<std::size_t>(
+        std::count(states_.begin(), states_.begin() + static_cast<std::ptrdiff_t>(count()), OutlineState::made));
+}
+
 const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseconds& time) {
     Outline& outline = outlines_[place];
     const std::atomic_ref state(states_[place]);

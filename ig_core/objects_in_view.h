@@ -22,6 +22,10 @@ class ObjectsInView {
     void select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres, const View& view,
                 const Quality& quality, Workers& workers);
 
+    [[nodiscard]] std::size_t count() const { return front_to_back_.size(); }
+    /// How many of them have got an outline.
+    [[nodiscard]] std::size_t outlines_made() const;
+
     /// Places, front to back, of the objects that may show on a strip.
     [[nodiscard]] std::span<const std::uint32_t> on(int strip) const { return on_strips_.on(strip); }
     [[nodiscard]] std::uint32_t object(std::uint32_t place) const { return front_to_back_[place]; }

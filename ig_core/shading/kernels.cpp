@@ -14,12 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 
-void Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+std::uint64_t Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
     switch (in.kind) {
         case ShadeInput::Kind::sky:
-            return shade_sky(in, buffer, offset);
+            shade_sky(in, buffer, offset);
+            return 0;
         case ShadeInput::Kind::light:
-            return shade_light(in, buffer, offset);
+            shade_light(in, buffer, offset);
+            return 0;
         default:
             return shade_surface(in, buffer, offset);
     }
@@ -181,8 +183,8 @@ void ShadeBuffer::resize(std::size_t count) {
     for (auto* plane : {&red, &green, &blue, &opacity}) plane->resize(count);
 }
 
-void shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset) {
-    HWY_DYNAMIC_DISPATCH(Shade)(input, buffer, offset);
+std::uint64_t shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset) {
+    return HWY_DYNAMIC_DISPATCH(Shade)(input, buffer, offset);
 }
 void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                     std::span<const float> z, std::span<float> t) {

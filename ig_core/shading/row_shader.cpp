@@ -171,6 +171,8 @@ void RowShader::plan(const RowSweep& sweep) {
         used += static_cast<std::uint32_t>(job.to - job.from);
     }
     buffer_.resize(used + kShadePadding);
+    work_.stretches += jobs_.size();
+    work_.samples += used;
 }
 
 void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
@@ -193,7 +195,7 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
     plan(sweep);
     // In buffer order: what a job writes past its end is overwritten by the next.
     for (const ShadeJob& job : jobs_)
-        shade(shade_input(frame, row, sweep.spans[job.span], job.from, job.to), buffer_, job.buffer);
+        work_.terms += shade(shade_input(frame, row, sweep.spans[job.span], job.from, job.to), buffer_, job.buffer);
 
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
     for (const LayerRun& run : sweep.runs) {
@@ -209,6 +211,7 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             continue;
         }
         group_layers(row, sweep, run);
+        work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
         for (int column = run.from; column < run.to; ++column) {
             for (std::size_t i = 0; i < partial_.size(); ++i) partial_[i].sample = sample(partial_layers_[i], column);
             composite_partial(buffer_, partial_, column, row.sub_lines, row_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ig_core/shading/frame_paint.h"
@@ -36,6 +37,12 @@ class RowShader {
     void keep_upper();
     void write_averaged(int columns, std::uint8_t* rgba);
 
+    /// What was done since it was asked last.
+    struct Work {
+        std::uint64_t stretches = 0, samples = 0, terms = 0, edge_pixels = 0;
+    };
+    Work take_work() { return std::exchange(work_, {}); }
+
   private:
     void plan(const RowSweep& sweep);
     /// Puts a run's layers into `partial_`, those that lie side by side in one group.
@@ -48,6 +55,7 @@ class RowShader {
     std::vector<PartialLayer> partial_;
     std::vector<std::uint32_t> partial_layers_;  // parallel to partial_: indices into RowSweep::layers
     ShadeBuffer buffer_, row_, upper_;
+    Work work_;
 };
 
 }  // namespace quadrig

@@ -279,8 +279,11 @@ HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::si
     }
 }
 
-HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
-    if (in.pairs) return shade_pairs(in, buffer, offset);
+HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    if (in.pairs) {
+        shade_pairs(in, buffer, offset);
+        return 0;
+    }
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const auto total = static_cast<std::size_t>(in.count);
@@ -288,6 +291,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
     KnownBlock known;
     BlockProbe probe;
     bool coarse = in.smooth_stretches && in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
+    std::uint64_t terms = 0;
     bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
@@ -319,6 +323,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
         } else {
             rough = !in.smooth_stretches;
         }
+        terms += count * static_cast<std::uint64_t>(term_count(in) - known.terms);
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
             const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);
             const Appearance<V> seen =
@@ -327,6 +332,7 @@ HWY_INLINE void shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::si
         }
         i += count;
     }
+    return terms;
 }
 
 HWY_INLINE void shade_light(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {

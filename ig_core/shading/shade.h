@@ -10,8 +10,9 @@
 namespace quadrig {
 
 /// Shades one job (image model: Eq 15, light, limb function, translucence, haze) into buffer[offset...], planar linear
-/// light. Writes up to kShadePadding samples past the end.
-void shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset);
+/// light. Writes up to kShadePadding samples past the end. Returns how many terms of a texture it was asked for at
+/// samples of their own, neither interpolated nor shared.
+std::uint64_t shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset);
 
 /// Evaluates the texturing function without filtering at scene points given relative to the eye, as shading does: for
 /// tests.

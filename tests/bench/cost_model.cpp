@@ -1,0 +1,202 @@
+/// What a frame costs, and how that grows: `bench_cost` prints the tables of ig_core/README.md. One thread unless said
+/// otherwise; medians.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "config/camera_path.h"
+#include "config/scene_file.h"
+#include "ig_core/image_generator.h"
+#include "tests/ig_core/randomness.h"
+
+using namespace quadrig;
+using namespace quadrig::test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
+
+struct Measured {
+    std::string name;
+    double frame = 0;  // ms
+    std::array<double, kStageCount> stages{};
+    FrameWork work;
+};
+
+View view_from(const ScenePoint& eye, const Attitude& attitude, Degrees fov, int width, int height) {
+    return {eye, eye_from_scene_rotation(attitude), ImagePlane::symmetric(width, height, fov)};
+}
+
+Measured measure(std::string name, ImageGenerator& generator, const View& view, int frames = 9) {
+    std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(view.image.width * view.image.height));
+    const FrameImage image{pixels.data(), view.image.width, view.image.height, 4 * std::ptrdiff_t{view.image.width}};
+    Measured all{std::move(name), 0, {}, {}};
+    std::vector<std::pair<double, StageTimes>> runs;
+    for (int i = 0; i < frames + 1; ++i) {  // the first one warms up
+        const auto start = Clock::now();
+        const StageTimes stages = generator.render(view, {}, {}, image);
+        if (i > 0) runs.emplace_back(milliseconds(Clock::now() - start), stages);
+    }
+    std::sort(runs.begin(), runs.end());
+    const auto& [frame, stages] = runs[runs.size() / 2];
+    all.frame = frame;
+    for (std::size_t i = 0; i < kStageCount; ++i) all.stages[i] = milliseconds(stages[i]);
+    all.work = generator.work();
+    return all;
+}
+
+double stage(const Measured& m, Stage which) { return m.stages[static_cast<std::size_t>(which)]; }
+
+constexpr std::size_t kCosts = 5;
+using Costs = std::array<double, kCosts>;
+constexpr std::array<const char*, kCosts> kCostNames{"stretch of a surface", "sample", "term of a sample",
+                                                     "pixel that an edge passes through", "pixel"};
+Costs counts(const FrameWork& work) {
+    return {static_cast<double>(work.stretches), static_cast<double>(work.samples), static_cast<double>(work.terms),
+            static_cast<double>(work.edge_pixels), static_cast<double>(work.pixels)};
+}
+
+/// Costs of shading in ns, none negative, with the least squares of relative errors, from all views but one.
+Costs fit(const std::vector<Measured>& views, std::size_t left_out) {
+    Costs costs{};
+    for (int round = 0; round < 20'000; ++round)
+        for (std::size_t k = 0; k < kCosts; ++k) {
+            double over = 0, under = 0;
+            for (std::size_t v = 0; v < views.size(); ++v) {
+                if (v == left_out) continue;
+                const double time = 1e6 * stage(views[v], Stage::shade);
+                const Costs n = counts(views[v].work);
+                double rest = time;
+                for (std::size_t j = 0; j < kCosts; ++j)
+                    if (j != k) rest -= costs[j] * n[j];
+                over += n[k] * rest / (time * time), under += n[k] * n[k] / (time * time);
+            }
+            costs[k] = under > 0 ? std::max(0.0, over / under) : 0.0;
+        }
+    return costs;
+}
+
+void print_model(const std::vector<Measured>& views) {
+    const std::size_t all = views.size();
+    const Costs costs = fit(views, all);
+    std::printf("| | ns |\n|---|---|\n");
+    double outlines = 0, outline_time = 0, spans = 0, span_time = 0;
+    for (const Measured& m : views) {
+        outlines += static_cast<double>(m.work.outlines), outline_time += 1e6 * stage(m, Stage::outline);
+        spans += static_cast<double>(m.work.spans), span_time += 1e6 * stage(m, Stage::sweep);
+    }
+    const double per_outline = outline_time / outlines, per_span = span_time / spans;
+    std::printf("| outline of an object | %.0f |\n| span of a row, until it is a run | %.0f |\n", per_outline,
+                per_span);
+    for (std::size_t k = 0; k < kCosts; ++k) std::printf("| %s | %.2f |\n", kCostNames[k], costs[k]);
+    std::printf(
+        "\n| view | outlines | spans | stretches | samples, M | terms, M | edge pixels | measured, ms | predicted | "
+        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
+    for (std::size_t v = 0; v < all; ++v) {
+        const Measured& m = views[v];
+        const Costs others = fit(views, v), n = counts(m.work);
+        double predicted = stage(m, Stage::select) + 1e-6 * (per_outline * static_cast<double>(m.work.outlines) +
+                                                             per_span * static_cast<double>(m.work.spans));
+        for (std::size_t k = 0; k < kCosts; ++k) predicted += 1e-6 * others[k] * n[k];
+        std::printf("| %s | %llu | %llu | %llu | %.2f | %.2f | %llu | %.1f | %.1f | %+.0f %% |\n", m.name.c_str(),
+                    static_cast<unsigned long long>(m.work.outlines), static_cast<unsigned long long>(m.work.spans),
+                    static_cast<unsigned long long>(m.work.stretches), 1e-6 * n[1], 1e-6 * n[2],
+                    static_cast<unsigned long long>(m.work.edge_pixels), m.frame, predicted,
+                    100 * (predicted / m.frame - 1));
+    }
+}
+
+std::vector<Measured> bench_views(int width, int height) {
+    const std::filesystem::path folder = std::filesystem::path(QUADRIG_SOURCE_DIR) / "config/scenes/bench";
+    std::vector<Measured> views;
+    for (const char* scene : {"landscape", "trees", "dense"}) {
+        ImageGenerator generator(config::read_scene(folder / (std::string(scene) + ".toml")), 1);
+        for (const char* eye : {"2m", "150m", "1500m"}) {
+            const config::Camera camera =
+                config::read_camera_path(folder / ("eye_" + std::string(eye) + ".json")).front();
+            views.push_back(measure(scene + std::string(" ") + eye + " " + std::to_string(width), generator,
+                                    view_from(camera.eye, camera.attitude, camera.horizontal_fov, width, height)));
+        }
+    }
+    return views;
+}
+
+/// Textured ellipsoids at random on a square of 4 km a side, the eye at its southern edge.
+Scene ellipsoids(int objects, int planes, bool behind) {
+    Scene scene;
+    scene.textures = {{"bark", {{1, 0.4, 0}, {0.7, 0.9, 1}, {0.5, 1.9, 2}}, 0.3}};
+    Randomness random(1);
+    for (int i = 0; i < objects; ++i) {
+        Object object;
+        const glm::dvec3 centre(random.between(-2000, 2000), (behind ? -1 : 1) * random.between(50, 4000),
+                                random.between(-40, 10));
+        object.shape =
+            Ellipsoid{{centre}, {random.between(2, 8), random.between(2, 8), random.between(2, 8)}, random.attitude()};
+        for (int j = 0; j < planes; ++j) {
+            const glm::dvec3 n = random.direction();
+            object.planes.push_back({n.x, n.y, n.z, random.between(1.5, 4) - glm::dot(n, centre)});
+        }
+        object.paint.texture = 0u, object.paint.texture_weight = 0.6;
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+/// Translucent ellipsoids behind one another, each of which fills the picture.
+Scene layers(int count) {
+    Scene scene = ellipsoids(0, 0, false);
+    for (int i = 0; i < count; ++i) {
+        Object object;
+        object.shape = Ellipsoid{{{0, 1000.0 + 10 * i, 0}}, {4000, 4, 4000}, {}};
+        object.paint.texture = 0u, object.paint.texture_weight = 0.6;
+        object.paint.translucence = Translucence{0.3, 0.3, 0.1};
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+void print_growth(const char* what, const std::vector<std::pair<int, Scene>>& scenes) {
+    std::printf(
+        "\n| %s | ready, ms | in view | outlines | spans | frame, ms | per object in view, us |\n"
+        "|---|---|---|---|---|---|---|\n",
+        what);
+    const View view = view_from({{0, 0, 0}}, {}, Degrees{60}, 1280, 720);
+    for (const auto& [count, scene] : scenes) {
+        const auto start = Clock::now();
+        ImageGenerator generator(scene, 1);
+        const double ready = milliseconds(Clock::now() - start);
+        const Measured m = measure("", generator, view, 5);
+        std::printf("| %d | %.0f | %llu | %llu | %llu | %.2f | %.2f |\n", count, ready,
+                    static_cast<unsigned long long>(m.work.objects), static_cast<unsigned long long>(m.work.outlines),
+                    static_cast<unsigned long long>(m.work.spans), m.frame,
+                    m.work.objects > 0 ? 1e3 * m.frame / static_cast<double>(m.work.objects) : 0.0);
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+int main() {
+    std::vector<Measured> views = bench_views(640, 480);
+    for (Measured& m : bench_views(1920, 1080)) views.push_back(std::move(m));
+    print_model(views);
+
+    std::vector<std::pair<int, Scene>> scenes;
+    for (int n = 100; n <= 1'000'000; n *= 10) scenes.emplace_back(n, ellipsoids(n, 0, false));
+    print_growth("objects", scenes);
+    scenes.clear();
+    for (int n = 100; n <= 1'000'000; n *= 100) scenes.emplace_back(n, ellipsoids(n, 0, true));
+    print_growth("objects behind the eye", scenes);
+    scenes.clear();
+    for (int planes : {0, 1, 2, 4, 6, 8, 16}) scenes.emplace_back(planes, ellipsoids(3000, planes, false));
+    print_growth("planes of 3,000 objects", scenes);
+    scenes.clear();
+    for (int n : {1, 2, 4, 8, 16}) scenes.emplace_back(n, layers(n));
+    print_growth("translucent layers", scenes);
+}

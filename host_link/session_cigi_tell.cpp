@@ -104,9 +104,11 @@ void Session::apply(const cigi::SensorControl& packet, const Asking& asking) {
 }
 
 void Session::tell_sensor(const cigi::SensorControl& sensor, const Asking& asking) {
-    respond(
-        cigi::SensorResponse{.view = sensor.view, .sensor = sensor.sensor, .host_frame = state_.host_frame.value_or(0)},
-        asking.format);
+    // No picture of a sensor's is drawn, so that there is nothing that it could track: it searches.
+    const cigi::SensorResponse searching{
+        .view = sensor.view, .sensor = sensor.sensor, .host_frame = state_.host_frame.value_or(0)};
+    if (sensor.extended_response) return respond(cigi::SensorExtendedResponse{searching}, asking.format);
+    respond(searching, asking.format);
 }
 
 void Session::tell_sensors(const Asking& asking) {

@@ -223,6 +223,19 @@ TEST_CASE("Every 4.0 packet about the air, components and sensors has each field
         t.real(16, p.gate_elevation);
         t.whole(20, p.host_frame);
     });
+    judge<cigi::SensorExtendedResponse>(56, 0x0FFA, [](Table& t, cigi::SensorExtendedResponse& p) {
+        t.whole(4, p.view);
+        t.whole(6, p.entity);
+        t.whole(8, p.sensor);
+        t.bits(9, 0, 2, p.status);
+        t.bits(9, 2, 1, p.entity_valid);
+        t.whole(12, p.gate_width);
+        t.whole(14, p.gate_height);
+        t.real(16, p.gate_azimuth);
+        t.real(20, p.gate_elevation);
+        t.whole(24, p.host_frame);
+        t.reals(32, p.track_point);
+    });
 }
 
 TEST_CASE("Every 4.0 question about the scene, and every answer, has each field where the table says") {

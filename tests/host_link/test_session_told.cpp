@@ -217,6 +217,16 @@ TEST_CASE("A sensor is answered once where it does not track, and in every frame
             host.send();
             CHECK(host.told<cigi::SensorResponse>().host_frame == i);
         }
+        sensor.extended_response = true;
+        host.send(sensor);
+        for (std::uint32_t i = 7; i < 9; ++i) {
+            host.send();
+            const auto extended = host.told<cigi::SensorExtendedResponse>();
+            CHECK(extended.view == 300);
+            CHECK(extended.sensor == 2);
+            CHECK(extended.host_frame == i);
+            CHECK((extended.status == 0 && !extended.entity_valid));
+        }
         sensor.on = false;
         host.send(sensor);
         CHECK(host.answers() == 1);

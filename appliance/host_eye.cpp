@@ -12,7 +12,7 @@
 namespace quadrig::appliance {
 
 std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time frame_time) {
-    shown_time_ = smoother_.shown_time(state, frame_time);
+    shown_time_ = state.while_there(smoother_.shown_time(state, frame_time));
     ownship_.reset();
     if (const auto pose = smoother_.pose_at(state, frame_time)) ownship_.emplace(state.ownship, *pose);
     const auto body_of = [&](std::uint16_t id) { return host::pose_of(state.entities, id, shown_time_, ownship_); };

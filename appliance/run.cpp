@@ -42,11 +42,10 @@ using LiveHosts = std::vector<std::unique_ptr<LiveHost>>;
 
 /// Of several hosts the first in the order given that has a pose and was heard of lately; the others stand by.
 LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
-    constexpr std::chrono::seconds kSilence{1};
     LiveHost* latest = nullptr;
     for (const auto& host : hosts) {
         if (!host->view || !host->state.newest_arrival) continue;
-        if (now - *host->state.newest_arrival < kSilence) return host.get();
+        if (!host->state.gone(now)) return host.get();
         if (!latest || *host->state.newest_arrival > *latest->state.newest_arrival) latest = host.get();
     }
     return latest;

@@ -14,6 +14,9 @@ namespace quadrig::host {
 /// Time since the epoch of some clock: a receiver's CLOCK_MONOTONIC, a capture file's, or the host's own.
 using Time = std::chrono::nanoseconds;
 
+/// Unheard for this long, a host is taken for gone, unless its link says otherwise.
+inline constexpr Time kSilence = std::chrono::seconds(1);
+
 /// A pose as protocols tell it: WGS-84, the attitude in the local level frame at that position.
 struct GeodeticPose {
     GeodeticPosition position;
@@ -120,9 +123,16 @@ struct HostState {
     std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
     std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram
+    Time silence = kSilence;                  ///< after which the host is taken for gone
     EntityList entities;
     std::uint16_t ownship = 0;                 ///< its id
     std::optional<std::uint16_t> view_entity;  ///< what the eye rides on; absent: the ownship
+
+    [[nodiscard]] bool gone(Time now) const { return newest_arrival && now - *newest_arrival >= silence; }
+    /// Rates count until the host is gone: `at`, or that moment where it is earlier.
+    [[nodiscard]] Time while_there(Time at) const {
+        return newest_arrival ? std::min(at, *newest_arrival + silence) : at;
+    }
 };
 
 }  // namespace quadrig::host

@@ -208,6 +208,10 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
     if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
     if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;
+    if (key == "silence") {
+        url.trust.silence = std::chrono::milliseconds(whole_in<int>(url, key, value, 100, 3'600'000));
+        return;
+    }
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
     url.altitude_offset = number<double>(value);
     if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))

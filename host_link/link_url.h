@@ -43,14 +43,15 @@ struct LinkUrl {
     canaerospace::PoseSettings canaerospace;    ///< ?position=, ?commit=, ?channel=, ?timeout=
     modbus::PoseSettings modbus;                ///< ?base=, ?word_order=
     std::optional<std::uint8_t> can_node;       ///< ?node=ID
-    TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=
+    TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=, ?silence=
 };
 
 /// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
-/// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3, 4, 4.0), ownship, view; can: position
-/// (gps, ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000),
-/// node (1 to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm),
-/// reply (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
+/// or can://INTERFACE[?…]. Keys: altitude_offset, silence (milliseconds, 100 to 3,600,000); cigi: version (3, 3.0
+/// to 3.3, 4, 4.0), ownship, view; can: position (gps, ins, auxiliary), commit (an identifier, 0 to 2047), channel (0
+/// to 255), timeout (milliseconds, 1 to 60000), node (1 to 255). Of live links: allow (ADDRESS[/BITS], with commas; not
+/// can), host (first or newest; cigi and fdm), reply (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1
+/// to 1000; cigi and can). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

@@ -41,6 +41,7 @@ struct SessionOptions {
     /// CIGI: types of entities that have a model; of others the host is warned.
     std::vector<int> entity_types;
     std::size_t cloud_decks = 0;  ///< that the scene has
+    Time silence = kSilence;      ///< after which the host is taken for gone
     Surveyor surveyor;            ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };

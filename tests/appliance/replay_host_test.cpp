@@ -12,6 +12,7 @@
 
 using namespace quadrig;
 using namespace quadrig::tests;
+using namespace std::chrono_literals;
 namespace cigi = quadrig::host::cigi;
 
 namespace {
@@ -187,6 +188,33 @@ TEST_CASE("A host switches the test pattern and the overlay on and off") {
     CHECK(difference(seen(2, 1), seen(3, 1, {"--overlay"})).largest == 0);
     CHECK(difference(seen(2, 0, {"--overlay"}), seen(3, 1)).largest == 0);
     CHECK(difference(seen(2, 1), seen(2, 0)).largest > 100);
+}
+
+TEST_CASE("What moves by rates stops once its host has been silent for as long as its link says") {
+    cigi::EntityControl other;
+    other.entity = 5, other.type = 12;
+    const GeodeticPosition there = host::SceneFrame({{47.26}, {11.34}, 581.0}).geodetic({{-20, 60, 14}});
+    other.latitude = there.latitude.value, other.longitude = there.longitude.value, other.altitude = there.altitude;
+    const cigi::RateControl flies{.entity = 5, .y = 10.0F};  // to the east
+    // The host dies after its first message; something that is none of its own comes two seconds later.
+    const auto flight = recording(
+        {cigi_message(1, {14.0, {}}, host::test::operator+(bytes_of(other), bytes_of(flies))), Bytes(8)}, 8004, 2s);
+    const auto seen = [&](const std::string& link, int frame) {
+        const auto out = scratch_directory();
+        const Outcome outcome = quadrig_program({"replay", flight, "--scene", scratch_file("s.toml", still_scene()),
+                                                 "--size", "160x120", "--rate", "10", "--entity", "12=x-29", "--sink",
+                                                 "png:" + out.string(), "--fast", "--link", link});
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return display::read_png(out / ("frame-0000" + std::to_string(frame) + ".png"));
+    };
+    const auto with_model_at = [](const std::string& x) {
+        return rendered(still_scene() + "[[model]]\nmodel = \"x-29\"\nposition = [" + x + ", 60, 14]\n", "0,0,14",
+                        "0,0,0", "60");
+    };
+    CHECK(difference(seen("cigi:", 18), with_model_at("-10")).mean < 0.02);
+    CHECK(difference(seen("cigi:?silence=1500", 18), with_model_at("-5")).mean < 0.02);
+    CHECK(difference(with_model_at("-10"), with_model_at("-5")).mean > 0.05);
 }
 
 TEST_CASE("An entity of the host is drawn as the model that its type stands for, where the host has it") {

@@ -219,7 +219,7 @@ TEST_CASE("Of two hosts at once the first holds the link where that is asked for
         CHECK(cigi::decode<cigi::StartOfFrame>(first.receive(), ByteOrder::big).last_host_frame == f);
     }
     CHECK(second.receive(0ms).empty());
-    std::this_thread::sleep_for(PeerGate::kSilence + 10ms);
+    std::this_thread::sleep_for(kSilence + 10ms);
     second.send(frame(51, ByteOrder::little));
     REQUIRE(wait_until([&] { return link.take_newest(state); }));
     CHECK(state.host_frame == 51U);

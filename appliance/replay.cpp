@@ -135,7 +135,8 @@ void replay(const ReplayOptions& options) {
         };
     }
     HostEye eye(
-        surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(options.settings)));
+        surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(options.settings)),
+        capture.protocol == host::Protocol::cigi ? std::optional<HostWeather>(scene) : std::nullopt);
 
     const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
                                        : frames_to_draw(options, settings.rate, *playback);

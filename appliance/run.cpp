@@ -82,10 +82,8 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
             [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
 }
 
-/// Of the protocols only CIGI has words for them.
-bool asks_questions(const std::unique_ptr<LiveHost>& host) {
-    return host->link->url().protocol == host::Protocol::cigi;
-}
+/// Of the protocols only CIGI has words for questions and for weather.
+bool speaks_cigi(const std::unique_ptr<LiveHost>& host) { return host->link->url().protocol == host::Protocol::cigi; }
 
 LiveHosts listen(const std::vector<host::LinkUrl>& links) {
     LiveHosts hosts;
@@ -130,7 +128,7 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
-    if (std::any_of(hosts.begin(), hosts.end(), asks_questions)) survey.emplace(scene);
+    if (std::any_of(hosts.begin(), hosts.end(), speaks_cigi)) survey.emplace(scene);
     if (!options.record.empty())
         recorder = std::make_unique<host::Recorder>(
             *hosts.front()->link,
@@ -138,7 +136,8 @@ void run(const LiveOptions& options) {
                                      host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
     for (const auto& host : hosts) {
         host->eye.emplace(
-            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)));
+            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
+            speaks_cigi(host) ? std::optional<HostWeather>(scene) : std::nullopt);
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
         session.entity_types = entity_types(given);

@@ -53,6 +53,8 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
                {{"count", statistics.gaps.count},
                 {"longest_ms", std::chrono::duration<double, std::milli>(statistics.gaps.longest).count()}}},
               {"other_entities", statistics.other_entities},
+              {"entities_dropped", statistics.entities_dropped},
+              {"regions_dropped", statistics.regions_dropped},
               {"answers_dropped", statistics.answers_dropped}};
     if (statistics.first_pose) json["first_pose"] = json_of(*statistics.first_pose);
     if (statistics.last_pose) json["last_pose"] = json_of(*statistics.last_pose);

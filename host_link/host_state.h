@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host_link/weather.h"
 #include "ig_core/geometry/space.h"
 
 namespace quadrig::host {
@@ -97,15 +98,6 @@ struct EntityList {
     }
 };
 
-/// A layer of weather over all the scene, in heights of scene space.
-struct WeatherLayer {
-    bool enabled = false;
-    double base = 0.0, top = 0.0;  ///< m
-    double coverage = 1.0;         ///< 0..1
-    double visibility = 0.0;       ///< m, between base and top
-    [[nodiscard]] bool holds(double height) const { return enabled && height >= base && height <= top; }
-};
-
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
     Mode mode = Mode::operate;
@@ -116,8 +108,8 @@ struct HostState {
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
     std::optional<double> visibility;  ///< m, meteorological optical range
-    /// 0: ground fog, then the scene's cloud decks; absent: as the scene has it.
-    std::array<std::optional<WeatherLayer>, 4> weather{};
+    WeatherLayers weather;             ///< everywhere; absent: as the scene has it
+    WeatherRegions regions;            ///< where it is another
     bool test_pattern = false;
     std::optional<bool> overlay;              ///< absent: as the appliance was asked
     std::optional<CivilTime> utc;             ///< date and time of day for the sun

@@ -173,6 +173,7 @@ class Session {
         unknown_view_entity,
         bad_attachment,
         no_such_deck,
+        too_many_regions,
         count
     };
     [[gnu::format(printf, 4, 5)]] void warn(Warning warning, const Asking& asking, const char* form, ...);
@@ -182,6 +183,8 @@ class Session {
     void apply(const cigi::SensorControl& packet, const Asking& asking);
     void tell_sensor(const cigi::SensorControl& sensor, const Asking& asking);
     void tell_sensors(const Asking& asking);
+    WeatherRegion* region_for(std::uint16_t id, const Asking& asking);
+    void apply(const cigi::EnvironmentalRegionControl& packet, const Asking& asking);
     void apply(const cigi::WeatherControl& packet, const Asking& asking);
     void apply(const cigi::ShortComponentControl& packet);
     std::optional<ScenePose> body_of(std::uint16_t id, Time at) const;

@@ -120,6 +120,8 @@ void Session::apply(const cigi::Packet& packet, const cigi::Message& message, Ti
             return apply(as(cigi::CelestialSphereControl{}), arrival);
         case cigi::AtmosphereControl::kId:
             return apply(as(cigi::AtmosphereControl{}));
+        case cigi::EnvironmentalRegionControl::kId:
+            return apply(as(cigi::EnvironmentalRegionControl{}), asking);
         case cigi::WeatherControl::kId:
             return apply(as(cigi::WeatherControl{}), asking);
         case cigi::ShortComponentControl::kId:

@@ -6,6 +6,7 @@
 #include "host_link/cigi.h"
 #include "host_link/geodesy.h"
 #include "host_link/sun_position.h"
+#include "ig_core/scene/deck_coverage.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
 #include "tests/appliance/program.h"
@@ -174,6 +175,56 @@ TEST_CASE("A layer of weather moves the scene's cloud deck, takes it away, and i
     const auto none = seen(weather);
     CHECK(difference(half, none).mean > 0.1);
     CHECK(difference(half, rendered(whole, "0,0,14", "12.5,10,0", "60")).mean > 0.1);
+}
+
+TEST_CASE("A region's weather is seen within it, half of it halfway across its perimeter, and not beyond") {
+    const GeodeticPosition north = host::SceneFrame({{47.26}, {11.34}, 581.0}).geodetic({{0, 10e3, 0}});
+    cigi::EnvironmentalRegionControl region{.region = 3,
+                                            .state = cigi::RegionState::active,
+                                            .latitude = north.latitude.value,
+                                            .longitude = north.longitude.value,
+                                            .size_x = 8000.0F,
+                                            .size_y = 2000.0F};
+    const auto seen = [&](const cigi::WeatherControl& weather, float perimeter) {
+        region.transition_perimeter = perimeter;
+        auto regional = weather;
+        regional.scope = cigi::WeatherScope::regional, regional.region = 3;
+        return replayed(cigi_message(0, kPose, host::test::operator+(bytes_of(region), bytes_of(regional))), true,
+                        small_scene());
+    };
+    const auto still = [](const std::string& scene) { return rendered(scene, "0,0,14", "12.5,-3,20", "60"); };
+    const auto hazy = [&](const std::string& visibility) {
+        return still("[haze]\nvisibility = " + visibility + "\n" + small_scene());
+    };
+    // The eye is 6 km south of the rectangle. Rain, then sand: what is in the air shortens the view.
+    for (const auto layer : {std::uint8_t{4}, std::uint8_t{8}}) {
+        const cigi::WeatherControl air{.layer = layer,
+                                       .enable = true,
+                                       .visibility = 150.0F,
+                                       .coverage = 60.0F,
+                                       .base = 300.0F,
+                                       .thickness = 900.0F};
+        check_same(seen(air, 12e3F), hazy("300.0"));
+        check_same(seen(air, 5999.0F), still(small_scene()));
+    }
+    check_different(hazy("300.0"), still(small_scene()));
+    // The deck of the scene, at 900 m with a threshold of 0.1, and the region's.
+    const cigi::WeatherControl deck{.layer = 1,
+                                    .enable = true,
+                                    .visibility = 90.0F,
+                                    .coverage = 70.0F,
+                                    .base = 581.0F + 400.0F,
+                                    .thickness = 100.0F};
+    const Texture grass{.name = "grass", .terms = {{1.0, 0.05, 0.3}, {0.7, 0.11, 1.9}}};
+    const double threshold = DeckCoverage(grass, {0.1, 0.0, 0.3}).threshold(0.7);
+    std::string halfway = small_scene();
+    halfway.replace(halfway.find("altitude = 900.0"), 16, "altitude = 650.0");
+    halfway.replace(halfway.find("threshold = 0.1"), 15, "threshold = " + std::to_string((0.1 + threshold) / 2));
+    CHECK(difference(seen(deck, 12e3F), still(halfway)).mean < 0.05);
+    CHECK(difference(still(halfway), still(small_scene())).mean > 0.2);
+    region.size_x = 30e3F;
+    CHECK(difference(seen(deck, 0.0F), replayed(cigi_message(0, kPose, bytes_of(deck)), true, small_scene())).largest ==
+          0);
 }
 
 TEST_CASE("A host switches the test pattern and the overlay on and off") {

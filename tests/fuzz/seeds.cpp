@@ -79,6 +79,11 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
     WeatherControl layer;
     layer.layer = 1, layer.enable = true, layer.base = 1500.0F, layer.thickness = 200.0F, layer.coverage = 60.0F;
     layer.visibility = 300.0F;
+    WeatherControl inside = layer;
+    inside.scope = WeatherScope::regional, inside.region = 2, inside.layer = 4;
+    EnvironmentalRegionControl region;
+    region.region = 2, region.state = RegionState::active, region.latitude = 47.26, region.longitude = 11.34;
+    region.size_x = region.size_y = 5000.0F, region.corner_radius = 500.0F, region.transition_perimeter = 800.0F;
     ShortComponentControl pattern;
     pattern.component_class = ShortComponentControl::kSystem, pattern.component = 1, pattern.state = 1;
     SensorControl sensor;
@@ -91,15 +96,16 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
             for (const EntityPosition position : entities) test::append(bytes, position, format);
         return bytes;
     };
-    return {
-        with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
-        with_positions(message(format, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{},
-                               AtmosphereControl{}),
-                       {ownship(47.2601), other}),
-        message(format, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
-        with_positions(message(format, ig_control(4, 6667), hanging, rates, layer, pattern, sensor, feeler), {hanging}),
-        message(format, ig_control(5, 8333), height) +
-            (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
+    return {with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
+            with_positions(message(format, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{},
+                                   AtmosphereControl{}),
+                           {ownship(47.2601), other}),
+            message(format, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
+            with_positions(
+                message(format, ig_control(4, 6667), hanging, rates, layer, region, inside, pattern, sensor, feeler),
+                {hanging}),
+            message(format, ig_control(5, 8333), height) +
+                (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
 }
 
 Bytes fdm(std::uint32_t version, double latitude) {

@@ -53,7 +53,22 @@ Columns random_motion_and_weather(Random& random, Bytes& bytes, ByteOrder order)
                 {"wind_direction", &weather.wind_direction},
                 {"barometric_pressure", &weather.pressure},
                 {"aerosol_concentration", &weather.aerosol}});
-    bytes = message(order, ig_control(1), rate, weather);
+    cigi::EnvironmentalRegionControl region;
+    Fields g{random, c, "env_region_control"};
+    g.number("region_id", region.region);
+    g.bits("region_state", region.state, 2);
+    g.bits("merge_weather", region.merge_weather, 1);
+    g.bits("merge_aerosol", region.merge_aerosol, 1);
+    g.bits("merge_maritime", region.merge_maritime, 1);
+    g.bits("merge_terrestrial", region.merge_terrestrial, 1);
+    g.number("lat", region.latitude);
+    g.number("lon", region.longitude);
+    numbers(g, {{"size_x", &region.size_x},
+                {"size_y", &region.size_y},
+                {"corner_radius", &region.corner_radius},
+                {"rotation", &region.rotation},
+                {"transition_perimeter", &region.transition_perimeter}});
+    bytes = message(order, ig_control(1), rate, weather, region);
     return c;
 }
 

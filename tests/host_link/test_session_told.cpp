@@ -84,7 +84,6 @@ TEST_CASE("Layers of weather are the host's, in heights of the scene; all other 
     CHECK(deck.top == 2300.0);
     CHECK(deck.coverage == Approx(0.4));
     CHECK(deck.visibility == 80.0);
-    CHECK((deck.holds(2100.0) && !deck.holds(1999.0) && !deck.holds(2301.0)));
     layer.layer = 0, layer.enable = false;
     CHECK_FALSE(host.send(layer).weather[0]->enabled);
     layer.enable = true;
@@ -92,7 +91,9 @@ TEST_CASE("Layers of weather are the host's, in heights of the scene; all other 
         layer.scope = scope;
         CHECK_FALSE(host.send(layer).weather[0]->enabled);
     }
-    layer.scope = cigi::WeatherScope::global, layer.layer = 4;
+    layer.scope = cigi::WeatherScope::global, layer.layer = 9;
+    CHECK(host.send(layer).weather[9]->base == 2000.0);
+    layer.layer = 10;
     host.send(layer);
     CHECK(host.refused() == 0);
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -67,6 +67,7 @@ Json live_link_report(const host::LiveLink& link) {
     told["replies"] = link.replies_sent();
     told["replies_failed"] = link.replies_failed();
     told["replies_held_back"] = link.replies_held_back();
+    if (link.url().synchronous) told["unanswered"] = link.unanswered();
     return told;
 }
 

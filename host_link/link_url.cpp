@@ -109,6 +109,12 @@ canaerospace::PositionSource position_of(const LinkUrl& url, std::string_view va
     fail(url, "position is gps, ins or auxiliary, not '" + std::string(value) + "'");
 }
 
+bool is_synchronous(const LinkUrl& url, std::string_view value) {
+    if (value != "synchronous" && value != "asynchronous")
+        fail(url, "operation is synchronous or asynchronous, not '" + std::string(value) + "'");
+    return value == "synchronous";
+}
+
 bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (key == "version")
         url.cigi_version = version_of(url, value);
@@ -116,6 +122,10 @@ bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value)
         url.ownship = whole_in<std::uint16_t>(url, key, value, 0, 65535);
     else if (key == "view")
         url.view = whole_in<std::uint16_t>(url, key, value, 0, 65535);
+    else if (key == "database")
+        url.database = whole_in<std::int8_t>(url, key, value, 1, 127);
+    else if (key == "operation")
+        url.synchronous = is_synchronous(url, value);
     else
         return false;
     return true;

@@ -43,6 +43,8 @@ SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene
     options.canaerospace = url.canaerospace;
     options.modbus = url.modbus;
     options.silence = url.trust.silence;
+    options.database = url.database;
+    options.synchronous = url.synchronous;
     options.can_node = url.can_node.value_or(kDefaultCanNode);
     return options;
 }
@@ -52,6 +54,7 @@ Session::Session(const SessionOptions& options)
     statistics_.protocol = options.protocol;
     state_.ownship = options.ownship;
     state_.silence = options.silence;
+    state_.smoothing = !options.synchronous;
     if (const auto& window = options.default_window)
         window_ = {window->left, window->right, window->top, window->bottom};
 }

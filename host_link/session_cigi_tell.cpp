@@ -31,7 +31,7 @@ void Session::warn(Warning warning, const Asking& asking, const char* form, ...)
     va_start(values, form);
     std::vsnprintf(text.data(), text.size(), form, values);
     va_end(values);
-    respond(cigi::IgMessage{static_cast<std::uint16_t>(warning), text.data()}, asking.format);
+    respond(cigi::IgMessage{static_cast<std::uint16_t>(warning), text.data()}, asking.format, false);
 }
 
 void Session::look_around(const Asking& asking) {

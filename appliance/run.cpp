@@ -59,7 +59,9 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
                                        static_cast<std::uint32_t>(record.deadline_misses)};
         for (const auto& host : hosts) {
             host->link->take_newest(host->state);
-            if (recorder != nullptr) recorder->frame(tick.number, tick.due, host->link->heard());
+            if (recorder != nullptr)
+                recorder->frame(
+                    {tick.number, tick.due, host->link->heard(), static_cast<std::uint32_t>(painter.step())});
             host->link->frame_begins(status);
             host->view = host->eye->view(host->state, tick.due);
         }
@@ -103,7 +105,7 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     if (settings.links.empty())
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     if (!options.record.empty() && settings.links.size() != 1)
-        throw WrongUse("--record takes one link: a recording is one host's");
+        throw WrongUse("--record takes one link, beside those of entities: a recording is one host's");
     return settings;
 }
 
@@ -115,7 +117,9 @@ void run(const LiveOptions& options) {
     std::optional<SceneSurvey> survey;
     std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
-    OwnEntities entities(given.entities);
+    std::optional<OwnEntities::Recording> recorded;
+    if (!options.record.empty()) recorded = {options.record, {settings.rate.numerator, settings.rate.denominator}};
+    OwnEntities entities(given.entities, recorded);
     Painter painter(scene_with_entities(given), settings);
     const Scene& scene = painter.scene();
 
@@ -130,10 +134,8 @@ void run(const LiveOptions& options) {
                      options.contact_sheet});
     if (std::any_of(hosts.begin(), hosts.end(), speaks_cigi)) survey.emplace(scene);
     if (!options.record.empty())
-        recorder = std::make_unique<host::Recorder>(
-            *hosts.front()->link,
-            host::Recorder::Settings{options.record,
-                                     host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
+        recorder = std::make_unique<host::Recorder>(*hosts.front()->link,
+                                                    host::Recorder::Settings{recorded->file, recorded->numbering});
     for (const auto& host : hosts) {
         host->eye.emplace(
             surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
@@ -155,7 +157,7 @@ void run(const LiveOptions& options) {
     for (const auto& host : hosts) {
         host->link->stop();
         nlohmann::ordered_json told = live_link_report(*host->link);
-        if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
+        if (recorder) told["recorded"] = json_of(*recorder);
         report.links.push_back(std::move(told));
     }
     for (auto& told : entities.stop()) report.links.push_back(std::move(told));

@@ -61,6 +61,10 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
     return json;
 }
 
+Json json_of(const host::Recorder& recorder) {
+    return {{"datagrams", recorder.recorded()}, {"left_out", recorder.left_out()}};
+}
+
 Json live_link_report(const host::LiveLink& link) {
     Json told = link_report(link.url().text, link.statistics());
     if (link.port() != 0) told["port"] = link.port();

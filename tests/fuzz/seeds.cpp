@@ -230,7 +230,7 @@ void add_recordings(std::vector<Seed>& all) {
     all.push_back({"capture", "linux_cooked", cooked.bytes()});
     std::string frames = first_line({60, 1});
     for (std::uint64_t k = 0; k < 5; ++k)
-        frames += line_of({k, Time(16'666'667 * static_cast<std::int64_t>(k)), 2 * k});
+        frames += line_of({k, Time(16'666'667 * static_cast<std::int64_t>(k)), 2 * k, 1});
     all.push_back({"recorded_frames", "five", bytes_of(frames)});
 }
 
@@ -239,7 +239,8 @@ void add_texts(std::vector<Seed>& all) {
                               "fdm://[::1]:5500?transport=tcp&allow=127.0.0.1,10.0.0.0/8,fe80::/10",
                               "can://vcan0?position=ins&commit=1038&timeout=100&channel=1&node=7",
                               "modbus://localhost:1502?base=100&word_order=cdab&altitude_offset=-12.5",
-                              "cigi:?version=3.3"};
+                              "cigi:?version=3.3",
+                              "cigi://:8004?operation=synchronous&database=7&silence=2500"};
     for (std::size_t i = 0; i < std::size(links); ++i)
         all.push_back({"link_url", "link_" + std::to_string(i), bytes_of(links[i])});
     all.push_back({"scene", "every_key", bytes_of(tests::kExampleScene)});

@@ -45,8 +45,8 @@ class OwnEntities {
     struct Driven {
         std::uint32_t model = 0;
         std::string name;
+        std::unique_ptr<host::Recorder> recorder;  // goes after the link, which tells it what it hears
         std::unique_ptr<host::LiveLink> link;
-        std::unique_ptr<host::Recorder> recorder;
         host::HostState state;
         scheduler::MotionSmoother smoother;
     };

@@ -12,7 +12,7 @@
 namespace quadrig::appliance {
 
 std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time frame_time) {
-    shown_time_ = smoother_.shown_time(state, frame_time);
+    shown_time_ = state.while_there(smoother_.shown_time(state, frame_time));
     ownship_.reset();
     if (const auto pose = smoother_.pose_at(state, frame_time)) ownship_.emplace(state.ownship, *pose);
     const auto body_of = [&](std::uint16_t id) { return host::pose_of(state.entities, id, shown_time_, ownship_); };
@@ -23,26 +23,8 @@ std::optional<View> HostEye::view(const host::HostState& state, scheduler::Time 
                                  ? surroundings_.channel
                                  : scheduler::host_image_plane(state.window, surroundings_.channel);
     const View view = scheduler::host_view(*body, state.mount, plane);
-    eye_height_ = view.eye.metres.z;
+    eye_ = view.eye;
     return view;
-}
-
-void HostEye::add_weather(const host::HostState& state, Environment& environment) {
-    decks_.fill(std::nullopt);
-    for (std::size_t i = 0; i < state.weather.size(); ++i) {
-        const auto& layer = state.weather[i];
-        if (!layer) continue;
-        const bool fog = i == 0;
-        const bool inside = layer->holds(eye_height_) && layer->coverage > 0.0;
-        if (inside) {
-            const auto clear = environment.visibility ? environment.visibility : surroundings_.visibility;
-            environment.visibility = std::min(layer->visibility, clear.value_or(layer->visibility));
-        }
-        if (!fog)
-            decks_[i - 1] = DeckState{layer->enabled && layer->coverage > 0.0 && !inside,
-                                      eye_height_ > layer->top ? layer->top : layer->base, layer->coverage};
-    }
-    environment.decks = decks_;
 }
 
 Environment HostEye::environment(const host::HostState& state, scheduler::Time elapsed,
@@ -50,7 +32,7 @@ Environment HostEye::environment(const host::HostState& state, scheduler::Time e
     Environment environment;
     environment.seconds = std::chrono::duration<double>(elapsed).count();
     environment.visibility = state.visibility;
-    add_weather(state, environment);
+    if (weather_) weather_->add(state, eye_, environment);
     if (state.utc) {
         const host::SunPosition sun = host::sun_position(*state.utc, surroundings_.origin);
         environment.sun = Sun{sun.azimuth, sun.elevation, surroundings_.sun.ambient};
@@ -77,12 +59,7 @@ std::optional<scheduler::Time> HostEye::fresh_arrival(const host::HostState& sta
 
 HostEye::Surroundings surroundings_of(const Scene& scene, const ImagePlane& channel, bool ignore_host_window,
                                       std::vector<int> entity_types) {
-    return {channel,
-            ignore_host_window,
-            scene.origin,
-            scene.sun,
-            scene.haze ? std::optional(scene.haze->visibility) : std::nullopt,
-            std::move(entity_types)};
+    return {channel, ignore_host_window, scene.origin, scene.sun, std::move(entity_types)};
 }
 
 host::ViewWindow window_of(const ImagePlane& plane) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "appliance/host_weather.h"
 #include "config/appliance_file.h"
 #include "frame_scheduler/frame_clock.h"
 #include "frame_scheduler/motion.h"
@@ -26,18 +27,16 @@ class HostEye {
         bool ignore_host_window = false;
         GeodeticPosition origin;
         Sun sun;
-        std::optional<double> visibility;  ///< m; absent: no haze
-        std::vector<int> entity_types;     ///< of the scene's models, in their order
+        std::vector<int> entity_types;  ///< of the scene's models, in their order
     };
-    explicit HostEye(const Surroundings& surroundings) : surroundings_(surroundings) {}
+    /// Without `weather` the scene has its own, whatever the host says.
+    explicit HostEye(const Surroundings& surroundings, std::optional<HostWeather> weather = std::nullopt)
+        : surroundings_(surroundings), weather_(std::move(weather)) {}
 
     /// The view for a frame due at `frame_time`, by the clock of the state's arrivals. To be called once a frame with
     /// the state latched for it. Nothing before the host's first pose. The eye rides on the entity that the host has
     /// put it on, as long as that is there, and else on the ownship.
     std::optional<View> view(const host::HostState& state, scheduler::Time frame_time);
-    /// Weather: within a layer the visibility is the layer's, where that is less; its deck is at the layer's base, seen
-    /// from above at its top, and from within not there.
-    ///
     /// For the frame that view() was asked about last. `elapsed`: the scene's time. `others`: models
     /// that this host does not place, config::kMostEntityModels at most.
     /// What the environment refers to is good until the next call.
@@ -47,16 +46,14 @@ class HostEye {
     std::optional<scheduler::Time> fresh_arrival(const host::HostState& state);
 
   private:
-    void add_weather(const host::HostState& state, Environment& environment);
-
     Surroundings surroundings_;
     std::array<PlacedModel, config::kMostEntityModels + host::EntityList::kMost> bodies_;
-    std::array<std::optional<DeckState>, std::tuple_size_v<decltype(host::HostState::weather)> - 1> decks_;
+    std::optional<HostWeather> weather_;
     scheduler::MotionSmoother smoother_;
     /// Of the frame that view() was asked about last.
     scheduler::Time shown_time_{};
     std::optional<std::pair<std::uint16_t, ScenePose>> ownship_;
-    double eye_height_ = 0.0;  ///< m, scene space
+    ScenePoint eye_;
     std::uint64_t shown_ = 0;  ///< sequence of the newest pose seen by fresh_arrival
 };
 

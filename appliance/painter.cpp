@@ -31,7 +31,7 @@ ImagePlane Painter::image_plane() const {
 
 StageTimes Painter::paint(const View& view, const Environment& environment, std::uint64_t frame_number,
                           const Extras& extras) {
-    const std::size_t step = budget_ ? budget_->step() : settings_.step;
+    const std::size_t step = extras.step.value_or(this->step());
     const auto begun = std::chrono::steady_clock::now();
     const StageTimes times = draw(view, environment, frame_number, step, extras);
     ++frames_at_step_[step];

@@ -21,13 +21,16 @@ class Painter {
     /// A test pattern comes in the scene's place.
     struct Extras {
         bool test_pattern = false;
-        std::optional<bool> overlay;  ///< absent: as the settings say
+        std::optional<bool> overlay;           ///< absent: as the settings say
+        std::optional<std::size_t> step = {};  ///< of the ladder; absent: step()
     };
     StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number) {
         return paint(view, environment, frame_number, {});
     }
     StageTimes paint(const View& view, const Environment& environment, std::uint64_t frame_number,
                      const Extras& extras);
+    /// The step of the quality ladder that the next picture is due with.
+    [[nodiscard]] std::size_t step() const { return budget_ ? budget_->step() : settings_.step; }
     /// Pictures painted with each step of the quality ladder.
     [[nodiscard]] const std::vector<std::uint64_t>& frames_at_step() const { return frames_at_step_; }
     /// Draws a view as often as it takes for memory to be there.

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "appliance/commands.h"
+#include "appliance/entities_again.h"
 #include "appliance/frame_run.h"
 #include "appliance/host_eye.h"
 #include "appliance/option_values.h"
@@ -16,13 +17,14 @@
 #include "appliance/run_report.h"
 #include "appliance/stop_signals.h"
 #include "config/scene_file.h"
+#include "display/frame_writer.h"
 #include "host_link/recorded_frames.h"
 
 namespace quadrig::appliance {
 namespace {
 
 struct ReplayOptions : RunOptions {
-    std::filesystem::path recording;
+    std::filesystem::path recording, appliance;
     std::optional<host::LinkUrl> link;
     bool fast = false;
     bool fifo = false;
@@ -51,31 +53,36 @@ std::uint64_t frames_to_draw(const ReplayOptions& options, const scheduler::Fram
 /// What a frame of the loop shows.
 struct Shown {
     const host::HostState* state = nullptr;
-    scheduler::Time time{};    ///< by the recording's clock
-    std::uint64_t number = 0;  ///< as the picture is called
+    scheduler::Time time{};             ///< by the recording's clock
+    std::uint64_t number = 0;           ///< as the picture is called
+    std::optional<std::uint32_t> step;  ///< of the quality ladder; absent: as the settings say
 };
 using ShownAt = std::function<Shown(std::uint64_t)>;
 
-scheduler::FrameHooks hooks_for(const ShownAt& at, HostEye& eye, Painter& painter, Outlets& outlets, Shown& shown) {
+scheduler::FrameHooks hooks_for(const ShownAt& at, HostEye& eye, EntitiesAgain& entities, Painter& painter,
+                                Outlets& outlets, Shown& shown) {
     const scheduler::FrameRate rate = painter.settings().rate;
-    const auto draw = [&at, &eye, &painter, &shown, rate, standby = standby_view(painter.image_plane()),
+    const auto draw = [&at, &eye, &entities, &painter, &shown, rate, standby = standby_view(painter.image_plane()),
                        next = std::uint64_t{0}](const scheduler::FrameTick& tick) mutable {
         // Frames left out for being late are latched all the same, so that the next one looks as it always does.
         std::optional<View> view;
+        std::span<const PlacedModel> others;
         for (; next <= tick.number; ++next) {
             shown = at(next);
             view = eye.view(*shown.state, shown.time);
+            others = entities.at(shown.number);
         }
         const scheduler::Time elapsed = scheduler::frame_time(rate, shown.number);
         scheduler::DrawnFrame drawn;
         if (!view) {
             Environment environment;
             environment.seconds = std::chrono::duration<double>(elapsed).count();
-            drawn.stages = painter.paint(standby, environment, shown.number);
+            environment.bodies = others;
+            drawn.stages = painter.paint(standby, environment, shown.number, {false, std::nullopt, shown.step});
             return drawn;
         }
-        drawn.stages = painter.paint(*view, eye.environment(*shown.state, elapsed), shown.number,
-                                     {shown.state->test_pattern, shown.state->overlay});
+        drawn.stages = painter.paint(*view, eye.environment(*shown.state, elapsed, others), shown.number,
+                                     {shown.state->test_pattern, shown.state->overlay, shown.step});
         if (const auto arrival = eye.fresh_arrival(*shown.state))
             drawn.input_age = shown.time + (tick.started - tick.due) - *arrival;
         return drawn;
@@ -94,52 +101,78 @@ std::optional<host::RecordedFrames> recorded_frames(const ReplayOptions& options
     return std::nullopt;
 }
 
+/// Whether the steps that the live run chose by itself are to be gone through again.
+bool repeats_steps(const PictureSettings& settings, const std::optional<host::RecordedFrames>& run) {
+    if (!settings.automatic || !run) return false;
+    for (const host::RecordedFrame& frame : run->frames)
+        if (frame.step >= settings.ladder.size())
+            throw std::runtime_error("the live run had another quality ladder: its frame " +
+                                     std::to_string(frame.number) + " was drawn with step " +
+                                     std::to_string(frame.step) + " of it, and this one has " +
+                                     std::to_string(settings.ladder.size()));
+    return true;
+}
+
+/// Settings of an appliance file come behind options; its links are those of the live run, and so are its sinks.
+config::ApplianceSettings settings_of(const ReplayOptions& options) {
+    if (options.appliance.empty()) return options.settings;
+    auto file = config::read_appliance(options.appliance, {display::kSinkUrls, display::is_sink_url});
+    file.links.clear();
+    file.sinks.clear();
+    return combined(options.settings, std::move(file));
+}
+
 void replay(const ReplayOptions& options) {
-    if (!options.settings.scene) throw WrongUse("--scene is missing: what is there to see?");
+    const config::ApplianceSettings given = settings_of(options);
+    if (!given.scene) throw WrongUse("--scene is missing: what is there to see?");
     if (options.link && options.link->live)
         throw WrongUse("link '" + options.link->text +
                        "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");
     watch_stop_signals();
-    PictureSettings settings = picture_settings(options, options.settings);
-    // As fast as frames can be drawn there is no time to be short of, and the same frames are to come every time.
-    if (options.fast) settings.automatic = false;
+    PictureSettings settings = picture_settings(options, given);
     const auto run = recorded_frames(options, settings.rate);
+    const bool steps = repeats_steps(settings, run);
+    // As fast as frames can be drawn there is no time to be short of, and the same frames are to come every time.
+    if (options.fast || steps) settings.automatic = false;
     const host::Capture capture = read_capture(
         options.recording, options.link ? std::optional(options.link->protocol) : std::nullopt, run.has_value());
     if (capture.truncated)
         std::cerr << "quadrig: " << options.recording.string() << ": ends early (" << *capture.truncated
                   << "); played up to there\n";
-    Painter painter(scene_with_entities(options.settings), settings);
+    Painter painter(scene_with_entities(given), settings);
     const Scene& scene = painter.scene();
     const host::LinkUrl link =
         options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
     host::SessionOptions session = session_options(link, scene.origin);
     session.default_window = window_of(painter.image_plane());
-    session.entity_types = entity_types(options.settings);
+    session.entity_types = entity_types(given);
     session.cloud_decks = scene.cloud_decks.size();
     std::optional<RunAgain> again;
     std::optional<Playback> playback;
     ShownAt shown_at;
     if (run) {
         again.emplace(capture, session, *run);
-        shown_at = [&again](std::uint64_t index) {
+        shown_at = [&again, steps](std::uint64_t index) {
             const host::RecordedFrame& frame = again->frame(index);
-            return Shown{&again->state_at(index), frame.due, frame.number};
+            return Shown{&again->state_at(index), frame.due, frame.number,
+                         steps ? std::optional(frame.step) : std::nullopt};
         };
     } else {
         // Frame k shows the flight at begin + k / rate of the recording's clock, whenever it is drawn.
         playback.emplace(capture, session);
         shown_at = [&playback, rate = settings.rate](std::uint64_t index) {
             const scheduler::Time time = playback->begin() + scheduler::frame_time(rate, index);
-            return Shown{&playback->state_at(time), time, index};
+            return Shown{&playback->state_at(time), time, index, std::nullopt};
         };
     }
-    HostEye eye(
-        surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(options.settings)));
+    HostEye eye(surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
+                capture.protocol == host::Protocol::cigi ? std::optional<HostWeather>(scene) : std::nullopt);
+
+    EntitiesAgain entities(given.entities, scene.origin, run ? std::optional(options.recording) : std::nullopt);
 
     const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
                                        : frames_to_draw(options, settings.rate, *playback);
-    Outlets outlets({options.settings.sinks,
+    Outlets outlets({given.sinks,
                      {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
                      options.fast ? display::WhenFull::wait : display::WhenFull::drop,
                      stop_requested,
@@ -147,7 +180,7 @@ void replay(const ReplayOptions& options) {
                      options.contact_sheet});
     painter.warm_up(standby_view(painter.image_plane()));
     Shown shown;
-    const scheduler::FrameHooks hooks = hooks_for(shown_at, eye, painter, outlets, shown);
+    const scheduler::FrameHooks hooks = hooks_for(shown_at, eye, entities, painter, outlets, shown);
     scheduler::FrameReport report = report_about(painter);
     scheduler::FrameRecord record;
     // Frames are counted by their numbers, so that one left out for being late is not drawn after the end.
@@ -166,6 +199,7 @@ void replay(const ReplayOptions& options) {
     told["flow"] = text(capture.flow);
     if (capture.truncated) told["truncated"] = *capture.truncated;
     report.links.push_back(std::move(told));
+    for (auto& entity : entities.reports()) report.links.push_back(std::move(entity));
     finish_report(report, record, painter, outlets, options.report);
 }
 
@@ -192,6 +226,10 @@ void add_replay(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("replay", "Play a recorded flight through the image generator");
     const auto options = std::make_shared<ReplayOptions>();
     command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
+    command
+        .add_option("appliance", options->appliance,
+                    "The settings file of the live run, for its entities; options win over it")
+        ->option_text("[APPLIANCE.toml]");
     add_option(command, "--link", options->link, read_link,
                "The recording's protocol, cigi:, fdm:, can: or modbus:,\nwith options such as\ncigi:?ownship=3 "
                "(default: what it holds)",

@@ -42,11 +42,10 @@ using LiveHosts = std::vector<std::unique_ptr<LiveHost>>;
 
 /// Of several hosts the first in the order given that has a pose and was heard of lately; the others stand by.
 LiveHost* driving_host(const LiveHosts& hosts, scheduler::Time now) {
-    constexpr std::chrono::seconds kSilence{1};
     LiveHost* latest = nullptr;
     for (const auto& host : hosts) {
         if (!host->view || !host->state.newest_arrival) continue;
-        if (now - *host->state.newest_arrival < kSilence) return host.get();
+        if (!host->state.gone(now)) return host.get();
         if (!latest || *host->state.newest_arrival > *latest->state.newest_arrival) latest = host.get();
     }
     return latest;
@@ -60,7 +59,9 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
                                        static_cast<std::uint32_t>(record.deadline_misses)};
         for (const auto& host : hosts) {
             host->link->take_newest(host->state);
-            if (recorder != nullptr) recorder->frame(tick.number, tick.due, host->link->heard());
+            if (recorder != nullptr)
+                recorder->frame(
+                    {tick.number, tick.due, host->link->heard(), static_cast<std::uint32_t>(painter.step())});
             host->link->frame_begins(status);
             host->view = host->eye->view(host->state, tick.due);
         }
@@ -83,10 +84,8 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
             [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
 }
 
-/// Of the protocols only CIGI has words for them.
-bool asks_questions(const std::unique_ptr<LiveHost>& host) {
-    return host->link->url().protocol == host::Protocol::cigi;
-}
+/// Of the protocols only CIGI has words for questions and for weather.
+bool speaks_cigi(const std::unique_ptr<LiveHost>& host) { return host->link->url().protocol == host::Protocol::cigi; }
 
 LiveHosts listen(const std::vector<host::LinkUrl>& links) {
     LiveHosts hosts;
@@ -106,7 +105,7 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
     if (settings.links.empty())
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     if (!options.record.empty() && settings.links.size() != 1)
-        throw WrongUse("--record takes one link: a recording is one host's");
+        throw WrongUse("--record takes one link, beside those of entities: a recording is one host's");
     return settings;
 }
 
@@ -118,7 +117,9 @@ void run(const LiveOptions& options) {
     std::optional<SceneSurvey> survey;
     std::unique_ptr<host::Recorder> recorder;
     LiveHosts hosts = listen(given.links);
-    OwnEntities entities(given.entities);
+    std::optional<OwnEntities::Recording> recorded;
+    if (!options.record.empty()) recorded = {options.record, {settings.rate.numerator, settings.rate.denominator}};
+    OwnEntities entities(given.entities, recorded);
     Painter painter(scene_with_entities(given), settings);
     const Scene& scene = painter.scene();
 
@@ -131,15 +132,14 @@ void run(const LiveOptions& options) {
                      {},
                      most_frames,
                      options.contact_sheet});
-    if (std::any_of(hosts.begin(), hosts.end(), asks_questions)) survey.emplace(scene);
+    if (std::any_of(hosts.begin(), hosts.end(), speaks_cigi)) survey.emplace(scene);
     if (!options.record.empty())
-        recorder = std::make_unique<host::Recorder>(
-            *hosts.front()->link,
-            host::Recorder::Settings{options.record,
-                                     host::FrameNumbering{settings.rate.numerator, settings.rate.denominator}});
+        recorder = std::make_unique<host::Recorder>(*hosts.front()->link,
+                                                    host::Recorder::Settings{recorded->file, recorded->numbering});
     for (const auto& host : hosts) {
         host->eye.emplace(
-            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)));
+            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
+            speaks_cigi(host) ? std::optional<HostWeather>(scene) : std::nullopt);
         host::SessionOptions session = session_options(host->link->url(), scene.origin);
         session.default_window = window_of(painter.image_plane());
         session.entity_types = entity_types(given);
@@ -157,7 +157,7 @@ void run(const LiveOptions& options) {
     for (const auto& host : hosts) {
         host->link->stop();
         nlohmann::ordered_json told = live_link_report(*host->link);
-        if (recorder) told["recorded"] = {{"datagrams", recorder->recorded()}, {"left_out", recorder->left_out()}};
+        if (recorder) told["recorded"] = json_of(*recorder);
         report.links.push_back(std::move(told));
     }
     for (auto& told : entities.stop()) report.links.push_back(std::move(told));

@@ -53,10 +53,16 @@ Json link_report(const std::string& url, const host::LinkStatistics& statistics)
                {{"count", statistics.gaps.count},
                 {"longest_ms", std::chrono::duration<double, std::milli>(statistics.gaps.longest).count()}}},
               {"other_entities", statistics.other_entities},
+              {"entities_dropped", statistics.entities_dropped},
+              {"regions_dropped", statistics.regions_dropped},
               {"answers_dropped", statistics.answers_dropped}};
     if (statistics.first_pose) json["first_pose"] = json_of(*statistics.first_pose);
     if (statistics.last_pose) json["last_pose"] = json_of(*statistics.last_pose);
     return json;
+}
+
+Json json_of(const host::Recorder& recorder) {
+    return {{"datagrams", recorder.recorded()}, {"left_out", recorder.left_out()}};
 }
 
 Json live_link_report(const host::LiveLink& link) {
@@ -65,6 +71,7 @@ Json live_link_report(const host::LiveLink& link) {
     told["replies"] = link.replies_sent();
     told["replies_failed"] = link.replies_failed();
     told["replies_held_back"] = link.replies_held_back();
+    if (link.url().synchronous) told["unanswered"] = link.unanswered();
     return told;
 }
 

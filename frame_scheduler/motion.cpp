@@ -35,7 +35,8 @@ std::optional<ScenePose> MotionSmoother::pose_at(const host::HostState& state, T
     const std::optional<SampleClock::PairTimes> times = clock_.times(state);
     const host::Entity* own = state.entities.find(state.ownship);
     const bool goes_on = own != nullptr && !own->rates.zero();
-    const auto as_it_came = [&] { return goes_on ? moved_on(*own, shown_time(state, frame_time)) : newest; };
+    const auto gone_on = [&](Time at) { return moved_on(*own, state.while_there(at)); };
+    const auto as_it_came = [&] { return goes_on ? gone_on(shown_time(state, frame_time)) : newest; };
     if (!state.smoothing || !state.earlier || !times) return as_it_came();
 
     const ScenePose& earlier = state.earlier->pose;
@@ -45,7 +46,7 @@ std::optional<ScenePose> MotionSmoother::pose_at(const host::HostState& state, T
         return as_it_came();
     const Time shown = shown_time(state, frame_time);
     // The sample's own time is before its arrival, from which on the rates count.
-    if (goes_on && shown > times->newest) return moved_on(*own, shown + (state.pose->arrival - times->newest));
+    if (goes_on && shown > times->newest) return gone_on(shown + (state.pose->arrival - times->newest));
     const Time reach = apart + settings_.longest_extrapolation;
     const Time at = std::clamp(shown, times->earlier - reach, times->newest + reach);
     return pose_between(earlier, times->earlier, newest, times->newest, at);

@@ -37,7 +37,8 @@ class MotionSmoother {
     /// frame with the state latched for it. Nothing before the host's first pose. The newest pose as it came where the
     /// host asks for no smoothing, until the samples' times are known, and after a jump.
     ///
-    /// An ownship that the host has given rates goes on by them after its newest sample, for as long as no other comes.
+    /// An ownship that the host has given rates goes on by them after its newest sample, until another comes or the
+    /// host is gone.
     std::optional<ScenePose> pose_at(const host::HostState& state, Time frame_time);
     /// The time that a frame due at `frame_time` shows.
     [[nodiscard]] Time shown_time(const host::HostState& state, Time frame_time) const {

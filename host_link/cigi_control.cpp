@@ -175,6 +175,22 @@ void layout(auto& wire, Is<WeatherControl> auto& p) {
     wire.number(kNone, 64, p.top_transition);
 }
 
+void layout(auto& wire, Is<EnvironmentalRegionControl> auto& p) {
+    wire.number(2, 6, p.region);
+    wire.bits({4, 0}, {4, 0}, 2, p.state);
+    wire.bits({4, 2}, {4, 2}, 1, p.merge_weather);
+    wire.bits({4, 3}, {4, 3}, 1, p.merge_aerosol);
+    wire.bits({4, 4}, {4, 4}, 1, p.merge_maritime);
+    wire.bits({4, 5}, {4, 5}, 1, p.merge_terrestrial);
+    wire.number(8, 8, p.latitude);
+    wire.number(16, 16, p.longitude);
+    wire.number(24, 24, p.size_x);
+    wire.number(28, 28, p.size_y);
+    wire.number(32, 32, p.corner_radius);
+    wire.number(36, 36, p.rotation);
+    wire.number(40, 40, p.transition_perimeter);
+}
+
 void layout(auto& wire, Is<ShortComponentControl> auto& p) {
     wire.number(2, 4, p.component);
     wire.number(4, 8, p.instance);
@@ -218,6 +234,7 @@ QUADRIG_CIGI_PACKET(ViewDefinition)
 QUADRIG_CIGI_PACKET(CelestialSphereControl)
 QUADRIG_CIGI_PACKET(AtmosphereControl)
 QUADRIG_CIGI_PACKET(WeatherControl)
+QUADRIG_CIGI_PACKET(EnvironmentalRegionControl)
 QUADRIG_CIGI_PACKET(ShortComponentControl)
 QUADRIG_CIGI_PACKET(SensorControl)
 QUADRIG_CIGI_PACKET(CollisionSegmentDefinition)

@@ -183,6 +183,23 @@ struct WeatherControl {
     float top_transition = 0.0F;                         ///< 4.0, m
 };
 
+enum class RegionState : std::uint8_t { inactive, active, destroyed, reserved };
+
+/// A rounded rectangle on the ground that Weather Control may give weather of its own.
+struct EnvironmentalRegionControl {
+    static constexpr Kind kId = 11;
+    static constexpr std::size_t kSize = 48;
+    static constexpr std::size_t kSize4 = 48;
+    std::uint16_t region = 0;
+    RegionState state = RegionState::inactive;
+    bool merge_weather = false, merge_aerosol = false, merge_maritime = false, merge_terrestrial = false;
+    double latitude = 0.0, longitude = 0.0;  ///< deg, of its middle
+    float size_x = 0.0F, size_y = 0.0F;      ///< m
+    float corner_radius = 0.0F;              ///< m
+    float rotation = 0.0F;                   ///< deg clockwise; without, X is north and Y east
+    float transition_perimeter = 0.0F;       ///< m
+};
+
 /// Of 3.3; 3.0 to 3.2 have narrower numbers.
 struct ShortComponentControl {
     static constexpr Kind kId = 5;

@@ -103,6 +103,20 @@ void layout(auto& wire, Is<SensorResponse> auto& p) {
     wire.number(20, 20, p.host_frame);
 }
 
+void layout(auto& wire, Is<SensorExtendedResponse> auto& p) {
+    wire.number(2, 4, p.view);
+    wire.number(4, 8, p.sensor);
+    wire.bits({5, 0}, {9, 0}, 2, p.status);
+    wire.bits({5, 2}, {9, 2}, 1, p.entity_valid);
+    wire.number(6, 6, p.entity);
+    wire.number(8, 12, p.gate_width);
+    wire.number(10, 14, p.gate_height);
+    wire.number(12, 16, p.gate_azimuth);
+    wire.number(16, 20, p.gate_elevation);
+    wire.number(20, 24, p.host_frame);
+    wire.numbers(24, 32, p.track_point);
+}
+
 void layout(auto& wire, Is<CollisionSegmentNotification> auto& p) {
     wire.number(2, 4, p.entity);
     wire.number(4, 8, p.segment);
@@ -120,6 +134,7 @@ QUADRIG_CIGI_PACKET(HatHotExtendedResponse)
 QUADRIG_CIGI_PACKET(LosResponse)
 QUADRIG_CIGI_PACKET(LosExtendedResponse)
 QUADRIG_CIGI_PACKET(SensorResponse)
+QUADRIG_CIGI_PACKET(SensorExtendedResponse)
 QUADRIG_CIGI_PACKET(CollisionSegmentNotification)
 
 std::size_t encode(const IgMessage& packet, Format format, std::span<std::byte> out) {

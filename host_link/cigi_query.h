@@ -124,6 +124,16 @@ struct SensorResponse {
     std::uint32_t host_frame = 0;
 };
 
+/// Says beside it what is tracked; without a track, nothing.
+struct SensorExtendedResponse : SensorResponse {
+    static constexpr Kind kId = 107;
+    static constexpr std::size_t kSize = 48;
+    static constexpr std::size_t kSize4 = 56;
+    bool entity_valid = false;
+    std::uint16_t entity = 0;
+    std::array<double, 3> track_point{};  ///< latitude, longitude (deg), altitude (m)
+};
+
 struct CollisionSegmentNotification {
     static constexpr Kind kId = 113;
     static constexpr std::size_t kSize = 16;

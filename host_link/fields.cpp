@@ -1,5 +1,6 @@
 #include "host_link/fields.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -110,6 +111,17 @@ Fields fields_of(const cigi::WeatherControl& p) {
             {"visibility", p.visibility, "m", 0}};
 }
 
+Fields fields_of(const cigi::EnvironmentalRegionControl& p) {
+    return {{"state", static_cast<double>(p.state), "", 0, 2},
+            degrees("latitude", p.latitude, 90),
+            degrees("longitude", p.longitude, 180),
+            {"size_x", p.size_x, "m", 0, 1e7},
+            {"size_y", p.size_y, "m", 0, 1e7},
+            {"corner_radius", p.corner_radius, "m", 0, std::min(p.size_x, p.size_y) / 2.0},
+            degrees("rotation", p.rotation, 360),
+            {"transition_perimeter", p.transition_perimeter, "m", 0, 1e7}};
+}
+
 Fields fields_of(const cigi::ShortComponentControl& p) {
     return {whole("class", p.component_class), whole("instance", p.instance), whole("state", p.state),
             whole("data_1", p.data[0]), whole("data_2", p.data[1])};
@@ -168,14 +180,17 @@ ToldPacket told(const cigi::Packet& packet, cigi::Format format) {
             told.name += ' ' + std::to_string(read.component);
         else if constexpr (requires { read.layer; })
             told.name += ' ' + std::to_string(read.layer);
+        else if constexpr (requires { read.region; })
+            told.name += ' ' + std::to_string(read.region);
         else if constexpr (requires { read.entity; })
             told.name += ' ' + std::to_string(read.entity);
     };
     const auto read_as = [&]<class... P>(P... kinds) { ((packet.id == P::kId ? as(kinds) : void()), ...); };
     read_as(cigi::IgControl{}, cigi::EntityControl{}, cigi::EntityPosition{}, cigi::RateControl{}, cigi::ViewControl{},
             cigi::ViewDefinition{}, cigi::CelestialSphereControl{}, cigi::AtmosphereControl{}, cigi::WeatherControl{},
-            cigi::ShortComponentControl{}, cigi::SensorControl{}, cigi::CollisionSegmentDefinition{},
-            cigi::HatHotRequest{}, cigi::LosSegmentRequest{}, cigi::LosVectorRequest{});
+            cigi::EnvironmentalRegionControl{}, cigi::ShortComponentControl{}, cigi::SensorControl{},
+            cigi::CollisionSegmentDefinition{}, cigi::HatHotRequest{}, cigi::LosSegmentRequest{},
+            cigi::LosVectorRequest{});
     if (told.fields.empty()) told.name += " (packet id " + std::to_string(packet.id) + ", skipped)";
     return told;
 }

@@ -7,12 +7,16 @@
 #include <cstdint>
 #include <optional>
 
+#include "host_link/weather.h"
 #include "ig_core/geometry/space.h"
 
 namespace quadrig::host {
 
 /// Time since the epoch of some clock: a receiver's CLOCK_MONOTONIC, a capture file's, or the host's own.
 using Time = std::chrono::nanoseconds;
+
+/// Unheard for this long, a host is taken for gone, unless its link says otherwise.
+inline constexpr Time kSilence = std::chrono::seconds(1);
 
 /// A pose as protocols tell it: WGS-84, the attitude in the local level frame at that position.
 struct GeodeticPose {
@@ -94,15 +98,6 @@ struct EntityList {
     }
 };
 
-/// A layer of weather over all the scene, in heights of scene space.
-struct WeatherLayer {
-    bool enabled = false;
-    double base = 0.0, top = 0.0;  ///< m
-    double coverage = 1.0;         ///< 0..1
-    double visibility = 0.0;       ///< m, between base and top
-    [[nodiscard]] bool holds(double height) const { return enabled && height >= base && height <= top; }
-};
-
 /// Everything latched at a frame start. A plain value, copied through a mailbox: no allocation in it.
 struct HostState {
     Mode mode = Mode::operate;
@@ -113,16 +108,23 @@ struct HostState {
     std::optional<ViewMount> mount;
     std::optional<ViewWindow> window;
     std::optional<double> visibility;  ///< m, meteorological optical range
-    /// 0: ground fog, then the scene's cloud decks; absent: as the scene has it.
-    std::array<std::optional<WeatherLayer>, 4> weather{};
+    WeatherLayers weather;             ///< everywhere; absent: as the scene has it
+    WeatherRegions regions;            ///< where it is another
     bool test_pattern = false;
     std::optional<bool> overlay;              ///< absent: as the appliance was asked
     std::optional<CivilTime> utc;             ///< date and time of day for the sun
     std::optional<std::uint32_t> host_frame;  ///< newest host frame number
     std::optional<Time> newest_arrival;       ///< arrival of the newest accepted datagram
+    Time silence = kSilence;                  ///< after which the host is taken for gone
     EntityList entities;
     std::uint16_t ownship = 0;                 ///< its id
     std::optional<std::uint16_t> view_entity;  ///< what the eye rides on; absent: the ownship
+
+    [[nodiscard]] bool gone(Time now) const { return newest_arrival && now - *newest_arrival >= silence; }
+    /// Rates count until the host is gone: `at`, or that moment where it is earlier.
+    [[nodiscard]] Time while_there(Time at) const {
+        return newest_arrival ? std::min(at, *newest_arrival + silence) : at;
+    }
 };
 
 }  // namespace quadrig::host

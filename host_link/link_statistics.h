@@ -35,6 +35,7 @@ struct LinkStatistics {
     std::uint64_t restarts = 0;          ///< the host began to count anew
     std::uint64_t other_entities = 0;    ///< most active at a time beside the ownship
     std::uint64_t entities_dropped = 0;  ///< packets of entities beyond those that are followed
+    std::uint64_t regions_dropped = 0;   ///< packets of weather regions beyond those that are kept
     std::uint64_t answers_dropped = 0;   ///< requests about the scene beyond what is answered at a time
     std::optional<PoseSample> first_pose;
     std::optional<PoseSample> last_pose;

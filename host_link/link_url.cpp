@@ -109,6 +109,12 @@ canaerospace::PositionSource position_of(const LinkUrl& url, std::string_view va
     fail(url, "position is gps, ins or auxiliary, not '" + std::string(value) + "'");
 }
 
+bool is_synchronous(const LinkUrl& url, std::string_view value) {
+    if (value != "synchronous" && value != "asynchronous")
+        fail(url, "operation is synchronous or asynchronous, not '" + std::string(value) + "'");
+    return value == "synchronous";
+}
+
 bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (key == "version")
         url.cigi_version = version_of(url, value);
@@ -116,6 +122,10 @@ bool set_cigi_option(LinkUrl& url, std::string_view key, std::string_view value)
         url.ownship = whole_in<std::uint16_t>(url, key, value, 0, 65535);
     else if (key == "view")
         url.view = whole_in<std::uint16_t>(url, key, value, 0, 65535);
+    else if (key == "database")
+        url.database = whole_in<std::int8_t>(url, key, value, 1, 127);
+    else if (key == "operation")
+        url.synchronous = is_synchronous(url, value);
     else
         return false;
     return true;
@@ -208,6 +218,10 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
     if (url.protocol == Protocol::cigi && set_cigi_option(url, key, value)) return;
     if (url.protocol == Protocol::canaerospace && set_can_option(url, key, value)) return;
     if (url.protocol == Protocol::modbus && set_modbus_option(url, key, value)) return;
+    if (key == "silence") {
+        url.trust.silence = std::chrono::milliseconds(whole_in<int>(url, key, value, 100, 3'600'000));
+        return;
+    }
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
     url.altitude_offset = number<double>(value);
     if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))

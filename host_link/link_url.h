@@ -39,18 +39,21 @@ struct LinkUrl {
     std::optional<cigi::Version> cigi_version;  ///< ?version=
     std::optional<std::uint16_t> ownship;       ///< ?ownship=ID
     std::optional<std::uint16_t> view;          ///< ?view=ID
+    std::optional<std::int8_t> database;        ///< ?database=N: the scene's number; absent: whatever the host asks for
+    bool synchronous = false;                   ///< ?operation=synchronous
     std::optional<double> altitude_offset;      ///< ?altitude_offset=METRES, added to the host's altitudes
     canaerospace::PoseSettings canaerospace;    ///< ?position=, ?commit=, ?channel=, ?timeout=
     modbus::PoseSettings modbus;                ///< ?base=, ?word_order=
     std::optional<std::uint8_t> can_node;       ///< ?node=ID
-    TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=
+    TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=, ?silence=
 };
 
 /// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
-/// or can://INTERFACE[?…]. Keys: altitude_offset; cigi: version (3, 3.0 to 3.3, 4, 4.0), ownship, view; can: position
-/// (gps, ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000),
-/// node (1 to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm),
-/// reply (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
+/// or can://INTERFACE[?…]. Keys: altitude_offset, silence (milliseconds, 100 to 3,600,000); cigi: version (3, 3.0
+/// to 3.3, 4, 4.0), ownship, view, database (1 to 127), operation (asynchronous or synchronous); can: position (gps,
+/// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
+/// to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm), reply
+/// (ADDRESS:PORT; cigi), transport (udp or tcp; fdm), reply_rate (1 to 1000; cigi and can). Throws LinkUrlError.
 LinkUrl parse_link_url(std::string_view text);
 
 }  // namespace quadrig::host

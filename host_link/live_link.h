@@ -73,6 +73,8 @@ class LiveLink {
     [[nodiscard]] std::uint64_t replies_failed() const { return replies_failed_.load(std::memory_order_relaxed); }
     /// Replies that were due, but would have been too many or, where anybody may reach the link, too large.
     [[nodiscard]] std::uint64_t replies_held_back() const { return replies_held_back_.load(std::memory_order_relaxed); }
+    /// Where the host is to answer every frame: frames that it has not answered when the next one began.
+    [[nodiscard]] virtual std::uint64_t unanswered() const { return 0; }
     [[nodiscard]] const LinkUrl& url() const { return url_; }
     /// "port 8004", "interface vcan0".
     [[nodiscard]] virtual std::string place() const = 0;

@@ -176,6 +176,7 @@ void Monitor::compare(const LinkStatistics& before, std::optional<std::uint32_t>
     if (after.gaps.count > before.gaps.count && before.last_pose)
         odd(format("gap: no pose for %.1f ms", milliseconds(heard.arrival - before.last_pose->arrival)));
     if (after.entities_dropped > before.entities_dropped) odd("more entities than are followed");
+    if (after.regions_dropped > before.regions_dropped) odd("more weather regions than are kept");
     if (url_.protocol == Protocol::cigi)
         for (std::size_t id = 0; id < after.packets.size(); ++id)
             if (before.packets[id] == 0 && after.packets[id] != 0 &&

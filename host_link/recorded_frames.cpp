@@ -14,14 +14,21 @@ std::filesystem::path recorded_frames_file(const std::filesystem::path& recordin
     return recording.string() + ".frames";
 }
 
+std::filesystem::path recording_of_entity(const std::filesystem::path& recording, std::size_t number,
+                                          Protocol protocol) {
+    const bool log = recording.extension() == ".log" && protocol != Protocol::canaerospace;
+    const std::string extension = log ? ".pcapng" : recording.extension().string();
+    return recording.parent_path() / (recording.stem().string() + ".entity-" + std::to_string(number) + extension);
+}
+
 std::string first_line(const FrameNumbering& numbering) {
-    return std::string(kTitle) + " 1 rate " + std::to_string(numbering.rate_numerator) + '/' +
+    return std::string(kTitle) + " 2 rate " + std::to_string(numbering.rate_numerator) + '/' +
            std::to_string(numbering.rate_denominator) + '\n';
 }
 
 std::string line_of(const RecordedFrame& frame) {
     return std::to_string(frame.number) + ',' + std::to_string(frame.due.count()) + ',' + std::to_string(frame.heard) +
-           '\n';
+           ',' + std::to_string(frame.step) + '\n';
 }
 
 std::optional<RecordedFrames> read_recorded_frames(const std::filesystem::path& recording) {
@@ -38,17 +45,18 @@ std::optional<RecordedFrames> read_recorded_frames(const std::filesystem::path& 
     std::getline(stream, line);
     std::istringstream head(line);
     head >> title >> version >> word >> result.numbering.rate_numerator >> slash >> result.numbering.rate_denominator;
-    if (!head || title != kTitle || version != 1 || slash != '/') fail("'quadrig-frames 1 rate N/D'");
+    if (!head || title != kTitle || version != 2 || slash != '/') fail("'quadrig-frames 2 rate N/D'");
     for (++number; std::getline(stream, line); ++number) {
         if (stream.eof()) break;  // cut in the middle: its process was
         std::istringstream cells(line);
         RecordedFrame frame;
         std::int64_t due = 0;
-        char first = ' ', second = ' ';
-        cells >> frame.number >> first >> due >> second >> frame.heard;
+        char first = ' ', second = ' ', third = ' ';
+        cells >> frame.number >> first >> due >> second >> frame.heard >> third >> frame.step;
         const RecordedFrame* before = result.frames.empty() ? nullptr : &result.frames.back();
         const bool onwards = before == nullptr || (frame.number > before->number && frame.heard >= before->heard);
-        if (!cells || first != ',' || second != ',' || !onwards) fail("'frame,due,heard', none of them going back");
+        if (!cells || first != ',' || second != ',' || third != ',' || !onwards)
+            fail("'frame,due,heard,step', none of the first three going back");
         frame.due = Time(due);
         result.frames.push_back(frame);
     }

@@ -1,9 +1,9 @@
 /// Which of a recording's datagrams each frame of the live run had seen: with it the run is played again frame by
 /// frame.
 ///
-/// Text beside the recording: a first line that tells the rate, then a line "frame,due,heard" for each frame drawn:
-/// its number, its deadline in nanoseconds since 1970 by the recording's clock, and how many datagrams of the recording
-/// had been taken in.
+/// Text beside the recording: a first line that tells the rate, then a line "frame,due,heard,step" for each frame
+/// drawn: its number, its deadline in nanoseconds since 1970 by the recording's clock, how many datagrams of the
+/// recording had been taken in, and the step of the quality ladder that it was drawn with.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host_link/host_state.h"
+#include "host_link/link_url.h"
 
 namespace quadrig::host {
 
@@ -25,6 +26,7 @@ struct RecordedFrame {
     std::uint64_t number = 0;
     Time due{};
     std::uint64_t heard = 0;
+    std::uint32_t step = 0;
 };
 
 struct RecordedFrames {
@@ -34,6 +36,11 @@ struct RecordedFrames {
 
 /// RECORDING with ".frames" behind its name.
 std::filesystem::path recorded_frames_file(const std::filesystem::path& recording);
+
+/// Of a run with several links, where the one that drives entity `number` (from 1) is recorded, beside the driving
+/// host's RECORDING: RECORDING with ".entity-N" before its extension, which is pcapng where a log would not do.
+std::filesystem::path recording_of_entity(const std::filesystem::path& recording, std::size_t number,
+                                          Protocol protocol);
 
 std::string first_line(const FrameNumbering& numbering);
 std::string line_of(const RecordedFrame& frame);

@@ -68,13 +68,14 @@ void Recorder::hear(const Heard& heard) {
     recorded_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void Recorder::frame(std::uint64_t number, Time due, std::uint64_t heard) {
+void Recorder::frame(const RecordedFrame& frame) {
     const std::uint64_t next = marked_.load(std::memory_order_relaxed);
     if (next - written_.load(std::memory_order_acquire) == kMostMarks) {
         left_out_.fetch_add(1, std::memory_order_relaxed);
         return;
     }
-    marks_[next % kMostMarks] = {number, due + since_1970_, heard};
+    marks_[next % kMostMarks] = frame;
+    marks_[next % kMostMarks].due += since_1970_;
     marked_.store(next + 1, std::memory_order_release);
 }
 

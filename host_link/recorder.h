@@ -36,9 +36,9 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// The frame loop's, once a frame: its number, its deadline by CLOCK_MONOTONIC, and how much the link had heard
-    /// when the frame took its newest state. Neither waits nor allocates.
-    void frame(std::uint64_t number, Time due, std::uint64_t heard);
+    /// The frame loop's, once a frame: its number, its deadline by CLOCK_MONOTONIC, how much the link had heard
+    /// when the frame took its newest state, and the step of the quality ladder. Neither waits nor allocates.
+    void frame(const RecordedFrame& frame);
 
     /// Writes what is left, and ends. Throws std::runtime_error where a file could not be written to its end.
     void finish();

@@ -42,6 +42,9 @@ SessionOptions session_options(const LinkUrl& url, const GeodeticPosition& scene
     options.cigi_version = url.cigi_version;
     options.canaerospace = url.canaerospace;
     options.modbus = url.modbus;
+    options.silence = url.trust.silence;
+    options.database = url.database;
+    options.synchronous = url.synchronous;
     options.can_node = url.can_node.value_or(kDefaultCanNode);
     return options;
 }
@@ -50,6 +53,8 @@ Session::Session(const SessionOptions& options)
     : options_(options), scene_frame_(options.scene_origin), can_pose_(options.canaerospace), view_(options.view) {
     statistics_.protocol = options.protocol;
     state_.ownship = options.ownship;
+    state_.silence = options.silence;
+    state_.smoothing = !options.synchronous;
     if (const auto& window = options.default_window)
         window_ = {window->left, window->right, window->top, window->bottom};
 }

@@ -34,6 +34,8 @@ struct SessionOptions {
     std::uint16_t ownship = 0;                  ///< entity id
     std::optional<std::uint16_t> view;          ///< view id; absent: the first one that the host names
     std::optional<cigi::Version> cigi_version;  ///< others are refused; absent: as each message says
+    std::optional<std::int8_t> database;        ///< CIGI: the scene's number; absent: whichever the host asks for
+    bool synchronous = false;                   ///< CIGI: messages are for the next frame, and not smoothed
     std::optional<ViewWindow> default_window;   ///< fills up what a View Definition leaves out
     canaerospace::PoseSettings canaerospace;    ///< which messages make a pose
     modbus::PoseSettings modbus;                ///< where the registers are
@@ -41,6 +43,7 @@ struct SessionOptions {
     /// CIGI: types of entities that have a model; of others the host is warned.
     std::vector<int> entity_types;
     std::size_t cloud_decks = 0;  ///< that the scene has
+    Time silence = kSilence;      ///< after which the host is taken for gone
     Surveyor surveyor;            ///< answers for the scene; without one such requests are only counted
     Time gap_threshold = std::chrono::milliseconds(50);
 };
@@ -67,7 +70,6 @@ struct ReplyContext {
 };
 
 /// Start Of Frame in the host's own byte order and version; returns its size. `time` is the image generator's.
-/// The scene is there before the first frame is, so a database that the host asks for is answered as loaded.
 /// `overframing`: the last frame was not whole in time; 4.0 tells it.
 std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Time time, bool overframing,
                            std::span<std::byte, cigi::StartOfFrame::kSize> out);
@@ -109,6 +111,7 @@ class Session {
     struct Response {
         std::array<std::byte, cigi::kLargestResponse> bytes{};
         std::size_t size = 0;
+        bool asked = true;  ///< false: a message for people, that nobody has asked for
     };
     [[nodiscard]] std::span<const Response> responses() const { return {responses_.data(), response_count_}; }
 
@@ -144,6 +147,8 @@ class Session {
         Time arrival{};
     };
     void apply(const cigi::IgControl& packet);
+    void load_database(std::int8_t wanted);
+    void reset_scene();
     void apply(const cigi::Packet& packet, const cigi::Message& message, Time arrival);
     Entity* entity_for(std::uint16_t id);
     void apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking);
@@ -172,6 +177,7 @@ class Session {
         unknown_view_entity,
         bad_attachment,
         no_such_deck,
+        too_many_regions,
         count
     };
     [[gnu::format(printf, 4, 5)]] void warn(Warning warning, const Asking& asking, const char* form, ...);
@@ -181,6 +187,8 @@ class Session {
     void apply(const cigi::SensorControl& packet, const Asking& asking);
     void tell_sensor(const cigi::SensorControl& sensor, const Asking& asking);
     void tell_sensors(const Asking& asking);
+    WeatherRegion* region_for(std::uint16_t id, const Asking& asking);
+    void apply(const cigi::EnvironmentalRegionControl& packet, const Asking& asking);
     void apply(const cigi::WeatherControl& packet, const Asking& asking);
     void apply(const cigi::ShortComponentControl& packet);
     std::optional<ScenePose> body_of(std::uint16_t id, Time at) const;
@@ -195,7 +203,7 @@ class Session {
     void answer_standing(const cigi::Message& message, Time arrival);
     static Asking asking_of(const cigi::Message& message, Time arrival);
     template <class P>
-    void respond(const P& response, cigi::Format format);
+    void respond(const P& response, cigi::Format format, bool asked = true);
     bool is_our_view(std::uint16_t view);
 
     SessionOptions options_;
@@ -203,6 +211,8 @@ class Session {
     HostState state_;
     LinkStatistics statistics_;
     std::optional<ReplyContext> reply_;
+    /// As Start Of Frame tells it: n loaded, -n loading, kNoDatabase; 0 before the host asks.
+    std::int8_t told_database_ = 0, loaded_database_ = 0;
     FrameOrder frame_order_;
     TickClock cigi_clock_{kCigiTick};
     FdmClock fdm_clock_;
@@ -254,13 +264,14 @@ class Session {
 };
 
 template <class P>
-void Session::respond(const P& response, cigi::Format format) {
+void Session::respond(const P& response, cigi::Format format, bool asked) {
     if (response_count_ == responses_.size()) {
         ++statistics_.answers_dropped;
         return;
     }
     Response& place = responses_[response_count_++];
     place.size = cigi::encode(response, format, place.bytes);
+    place.asked = asked;
 }
 
 }  // namespace quadrig::host

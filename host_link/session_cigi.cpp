@@ -12,6 +12,8 @@ namespace {
 constexpr double kWidestHalfAngle = 89.0;
 // Metres from an entity's reference point to an eye that still belongs to it.
 constexpr double kFarthestMount = 1e5;
+// What Start Of Frame says of a database that is not there.
+constexpr std::int8_t kNoDatabase = -128;
 
 // FNV-1a (Fowler, Noll, Vo), 64 bits.
 std::uint64_t fingerprint(std::span<const std::byte> bytes) {
@@ -77,9 +79,9 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
 
     const cigi::IgControl& ig_control = message.ig_control;
     apply(ig_control);
-    reply_ = ReplyContext{
-        message.format, ig_control.minor_version, ig_control.last_ig_frame.has_value(), ig_control.database,
-        state_.mode,    ig_control.host_frame};
+    reply_ =
+        ReplyContext{message.format, ig_control.minor_version, ig_control.last_ig_frame.has_value(), told_database_,
+                     state_.mode,    ig_control.host_frame};
     ownship_pose_.reset();
     bool asks = false;
     for (auto rest = message.packets; !rest.empty();) {
@@ -120,6 +122,8 @@ void Session::apply(const cigi::Packet& packet, const cigi::Message& message, Ti
             return apply(as(cigi::CelestialSphereControl{}), arrival);
         case cigi::AtmosphereControl::kId:
             return apply(as(cigi::AtmosphereControl{}));
+        case cigi::EnvironmentalRegionControl::kId:
+            return apply(as(cigi::EnvironmentalRegionControl{}), asking);
         case cigi::WeatherControl::kId:
             return apply(as(cigi::WeatherControl{}), asking);
         case cigi::ShortComponentControl::kId:
@@ -133,8 +137,46 @@ void Session::apply(const cigi::Packet& packet, const cigi::Message& message, Ti
     }
 }
 
+// A database that is asked for is told as loading until the host's next message, which is to take notice of that, and
+// as loaded from then on: the scene is there before the first frame is.
+void Session::load_database(std::int8_t wanted) {
+    if (wanted < 0) {
+        reject(Reject::out_of_range);
+        return;
+    }
+    if (told_database_ < 0 && told_database_ != kNoDatabase)
+        loaded_database_ = static_cast<std::int8_t>(-told_database_);
+    told_database_ = loaded_database_;
+    if (wanted == 0 || wanted == loaded_database_) return;
+    const bool available = options_.database.value_or(wanted) == wanted;
+    told_database_ = available ? static_cast<std::int8_t>(-wanted) : kNoDatabase;
+}
+
+/// What the host has put there goes; the ownship stays where it was.
+void Session::reset_scene() {
+    state_.entities = {};
+    state_.view_entity.reset();
+    state_.mount.reset();
+    state_.window.reset();
+    state_.visibility.reset();
+    state_.utc.reset();
+    state_.weather = {};
+    state_.regions = {};
+    state_.test_pattern = false;
+    state_.overlay.reset();
+    view_ = options_.view;
+    view_group_ = 0;
+    window_ = {};
+    if (const auto& window = options_.default_window)
+        window_ = {window->left, window->right, window->top, window->bottom};
+    ephemeris_.reset();
+    segment_count_ = sensor_count_ = standing_count_ = 0;
+}
+
 void Session::apply(const cigi::IgControl& packet) {
     state_.host_frame = packet.host_frame;
+    load_database(packet.database);
+    if (packet.mode == cigi::IgMode::standby && state_.mode != Mode::standby && reply_) reset_scene();
     switch (packet.mode) {
         case cigi::IgMode::standby:
             state_.mode = Mode::standby;

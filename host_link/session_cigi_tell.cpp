@@ -31,7 +31,7 @@ void Session::warn(Warning warning, const Asking& asking, const char* form, ...)
     va_start(values, form);
     std::vsnprintf(text.data(), text.size(), form, values);
     va_end(values);
-    respond(cigi::IgMessage{static_cast<std::uint16_t>(warning), text.data()}, asking.format);
+    respond(cigi::IgMessage{static_cast<std::uint16_t>(warning), text.data()}, asking.format, false);
 }
 
 void Session::look_around(const Asking& asking) {
@@ -104,9 +104,11 @@ void Session::apply(const cigi::SensorControl& packet, const Asking& asking) {
 }
 
 void Session::tell_sensor(const cigi::SensorControl& sensor, const Asking& asking) {
-    respond(
-        cigi::SensorResponse{.view = sensor.view, .sensor = sensor.sensor, .host_frame = state_.host_frame.value_or(0)},
-        asking.format);
+    // No picture of a sensor's is drawn, so that there is nothing that it could track: it searches.
+    const cigi::SensorResponse searching{
+        .view = sensor.view, .sensor = sensor.sensor, .host_frame = state_.host_frame.value_or(0)};
+    if (sensor.extended_response) return respond(cigi::SensorExtendedResponse{searching}, asking.format);
+    respond(searching, asking.format);
 }
 
 void Session::tell_sensors(const Asking& asking) {

@@ -59,7 +59,7 @@ void Session::apply(const cigi::EntityControl& packet, const cigi::Message& mess
     const bool ownship = packet.entity == options_.ownship;
     // Smoothing is on only where both the message and the entity ask for it; before 3.3 neither could.
     if (ownship && (message.ig_control.minor_version >= 3 || message.format.version == cigi::Version::four))
-        state_.smoothing = message.ig_control.smoothing && packet.smoothing;
+        state_.smoothing = message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
     if (packet.state == cigi::EntityState::destroyed) {
         EntityList& list = state_.entities;
         const auto end = list.entities.begin() + static_cast<std::ptrdiff_t>(list.count);
@@ -71,7 +71,8 @@ void Session::apply(const cigi::EntityControl& packet, const cigi::Message& mess
     }
     Entity* entity = entity_for(packet.entity);
     if (entity != nullptr) entity->detects_collisions = packet.collision_detection;
-    if (entity != nullptr) entity->smoothing = message.ig_control.smoothing && packet.smoothing;
+    if (entity != nullptr)
+        entity->smoothing = message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
     if (entity != nullptr && !ownship) {
         entity->type = packet.extended_type ? std::nullopt : std::optional(packet.type);
         entity->active = packet.state == cigi::EntityState::active;

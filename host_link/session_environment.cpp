@@ -13,8 +13,12 @@ namespace {
 constexpr double kLeastVisibility = 1.0;
 // Metres about the ellipsoid where a layer of weather may begin.
 constexpr double kLowestBase = -12e3, kHighestBase = 1e5;
+// Metres: more is garbled.
+constexpr double kLargestRegion = 1e7;
 // Of the system's class: what a host may switch on and off.
 constexpr std::uint16_t kTestPatternComponent = 1, kOverlayComponent = 2;
+
+bool within(double value, double lowest, double highest) { return value >= lowest && value <= highest; }
 
 std::chrono::year_month_day calendar_date(std::uint32_t mmddyyyy) {
     using namespace std::chrono;
@@ -66,20 +70,72 @@ void Session::apply(const cigi::AtmosphereControl& packet) {
     state_.visibility = std::max<double>(packet.visibility, kLeastVisibility);
 }
 
+WeatherRegion* Session::region_for(std::uint16_t id, const Asking& asking) {
+    WeatherRegions& list = state_.regions;
+    const auto first = list.regions.begin(), end = first + static_cast<std::ptrdiff_t>(list.count);
+    const auto place = std::ranges::find(first, end, id, &WeatherRegion::id);
+    if (place != end) return &*place;
+    if (list.count == WeatherRegions::kMost) {
+        ++statistics_.regions_dropped;
+        warn(Warning::too_many_regions, asking, "no room for weather region %d", int{id});
+        return nullptr;
+    }
+    *place = WeatherRegion{};
+    place->id = id;
+    ++list.count;
+    return &*place;
+}
+
+void Session::apply(const cigi::EnvironmentalRegionControl& packet, const Asking& asking) {
+    if (packet.state == cigi::RegionState::destroyed) {
+        WeatherRegions& list = state_.regions;
+        const auto end = list.regions.begin() + static_cast<std::ptrdiff_t>(list.count);
+        const auto gone = std::ranges::find(list.regions.begin(), end, packet.region, &WeatherRegion::id);
+        if (gone == end) return;
+        std::move(gone + 1, end, gone);
+        --list.count;
+        return;
+    }
+    const GeodeticPosition middle{{packet.latitude}, {packet.longitude}, 0.0};
+    const Attitude rotation{{packet.rotation}, {}, {}};
+    const float shorter = std::min(packet.size_x, packet.size_y);
+    if (packet.state == cigi::RegionState::reserved || !in_range(middle, rotation) ||
+        !within(packet.size_x, 0.0, kLargestRegion) || !within(packet.size_y, 0.0, kLargestRegion) ||
+        !within(packet.corner_radius, 0.0, shorter / 2.0) ||
+        !within(packet.transition_perimeter, 0.0, kLargestRegion)) {
+        reject(Reject::out_of_range);
+        return;
+    }
+    WeatherRegion* region = region_for(packet.region, asking);
+    if (region == nullptr) return;
+    region->active = packet.state == cigi::RegionState::active;
+    region->middle = scene_frame_.pose(middle, rotation);
+    region->length = packet.size_x;
+    region->width = packet.size_y;
+    region->corner_radius = packet.corner_radius;
+    region->transition_perimeter = packet.transition_perimeter;
+}
+
 void Session::apply(const cigi::WeatherControl& packet, const Asking& asking) {
-    // Rain and its like, and weather in places of its own, are not in the image model.
-    if (packet.layer >= state_.weather.size() || packet.scope != cigi::WeatherScope::global) return;
-    const auto within = [](double value, double lowest, double highest) { return value >= lowest && value <= highest; };
+    const bool regional = packet.scope == cigi::WeatherScope::regional;
+    // Weather that goes with an entity is not in the image model, nor what a layer's number does not tell.
+    if (packet.layer >= kWeatherLayers || (!regional && packet.scope != cigi::WeatherScope::global)) return;
     if (!within(packet.base, kLowestBase, kHighestBase) || !within(packet.thickness, 0.0, kHighestBase) ||
         !within(packet.coverage, 0.0, 100.0) || !(packet.visibility >= 0.0F) || !std::isfinite(packet.visibility)) {
         reject(Reject::out_of_range);
         return;
     }
-    if (packet.layer > options_.cloud_decks)
+    if (packet.layer <= kCloudLayers && packet.layer > options_.cloud_decks)
         warn(Warning::no_such_deck, asking, "the scene has no cloud deck %d", int{packet.layer});
+    WeatherLayers* layers = &state_.weather;
+    if (regional) {
+        WeatherRegion* region = region_for(packet.region, asking);
+        if (region == nullptr) return;
+        layers = &region->layers;
+    }
     const double base = packet.base + options_.altitude_offset - options_.scene_origin.altitude;
-    state_.weather[packet.layer] = WeatherLayer{packet.enable, base, base + packet.thickness, 0.01 * packet.coverage,
-                                                std::max<double>(packet.visibility, kLeastVisibility)};
+    (*layers)[packet.layer] = WeatherLayer{packet.enable, base, base + packet.thickness, 0.01 * packet.coverage,
+                                           std::max<double>(packet.visibility, kLeastVisibility)};
 }
 
 void Session::apply(const cigi::ShortComponentControl& packet) {

@@ -8,8 +8,6 @@ namespace quadrig::host {
 
 namespace {
 
-// A host that has not committed for this long has left the picture to another.
-constexpr Time kHostSilence = std::chrono::seconds(1);
 // A sequence number further ahead than this is a new count, not a loss.
 constexpr std::uint16_t kFarthestAhead = 256;
 
@@ -38,7 +36,8 @@ Verdict Session::accept_modbus(std::span<const std::byte> frame, Time arrival, s
     if (host == nullptr) return Verdict::no_pose;
 
     const auto driving = modbus_driving_;
-    if (driving && driving->source != source && arrival - driving->commit < kHostSilence)
+    // A host that has not committed for so long has left the picture to another.
+    if (driving && driving->source != source && arrival - driving->commit < options_.silence)
         return reject(Reject::other_host);
     if (driving) {
         const auto ahead = static_cast<std::uint16_t>(host->sequence - driving->sequence);

@@ -32,7 +32,7 @@ bool PeerGate::allows(const IpAddress& address) const {
 PeerGate::Judgement PeerGate::judge(const Endpoint& from, Time arrival) {
     if (!allows(from.address)) return {Reject::not_allowed, false};
     if (!settings_.first_host || !holder_ || *holder_ == from) return {};
-    if (arrival - heard_ < kSilence) return {Reject::other_host, false};
+    if (arrival - heard_ < settings_.silence) return {Reject::other_host, false};
     holder_.reset();
     return {std::nullopt, true};
 }

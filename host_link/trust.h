@@ -33,6 +33,7 @@ struct TrustSettings {
     bool first_host = false;                ///< the first that speaks holds the link; else the newest message counts
     std::optional<Endpoint> reply;          ///< where replies go; absent: to where the newest message taken came from
     double reply_rate = kDefaultReplyRate;  ///< a second
+    Time silence = kSilence;                ///< a host unheard for so long no longer holds the link
 };
 
 /// Reads IPv4, IPv6 without brackets; absent where it is neither.
@@ -41,9 +42,6 @@ std::optional<IpAddress> ip_address(const std::string& text);
 /// Judges datagrams by their senders.
 class PeerGate {
   public:
-    /// A host silent for this long no longer holds the link.
-    static constexpr Time kSilence = std::chrono::seconds(1);
-
     explicit PeerGate(TrustSettings settings) : settings_(std::move(settings)) {}
 
     struct Judgement {

@@ -133,12 +133,38 @@ std::size_t UdpLink::largest_reply(std::uint64_t bytes_taken) {
     return static_cast<std::size_t>(std::min<std::uint64_t>(kLargestMessage, bytes_taken - bytes_answered_));
 }
 
+void UdpLink::look_for_answer() {
+    if (!url().synchronous) return;
+    if (told_of_last_frame_ && heard() == heard_at_last_frame_) unanswered_.fetch_add(1, std::memory_order_relaxed);
+    heard_at_last_frame_ = heard();
+}
+
+void UdpLink::append(const Session::Response& response, std::size_t& size) {
+    std::memcpy(message_.data() + size, response.bytes.data(), response.size);
+    size += response.size;
+}
+
+void UdpLink::keep(const Session::Response& message) {
+    if (kept_count_ == kept_.size()) return hold_reply_back();
+    kept_[kept_count_++] = message;
+}
+
+void UdpLink::append_message(std::uint64_t bytes_taken, std::size_t largest, std::size_t& size) {
+    const std::size_t wanted = kept_[0].size;
+    if (kept_count_ == 0 || size + wanted > largest || bytes_taken - bytes_at_last_message_ < wanted) return;
+    append(kept_[0], size);
+    bytes_at_last_message_ = bytes_taken;
+    std::move(kept_.begin() + 1, kept_.begin() + static_cast<std::ptrdiff_t>(kept_count_--), kept_.begin());
+}
+
 void UdpLink::frame_begins(const FrameStatus& status) {
+    look_for_answer();
     send_start_of_frame(status.frame, status.now, status.misses != misses_);
     misses_ = status.misses;
 }
 
 void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now, bool overframing) {
+    told_of_last_frame_ = false;
     const auto& [state, reply, peer, heard] = latched();
     if (!reply || peer.size == 0) return;
     const std::size_t largest = largest_reply(peer.bytes_taken);
@@ -148,16 +174,21 @@ void UdpLink::send_start_of_frame(std::uint32_t ig_frame, Time now, bool overfra
     std::size_t next = taken_.load(std::memory_order_relaxed);
     for (const std::size_t end = queued_.load(std::memory_order_acquire); next != end; ++next) {
         const Session::Response& response = waiting_[next % kMostWaiting];
+        if (!response.asked) {
+            keep(response);
+            continue;
+        }
         if (size + response.size > largest) break;
-        std::memcpy(message_.data() + size, response.bytes.data(), response.size);
-        size += response.size;
+        append(response, size);
     }
     taken_.store(next, std::memory_order_release);
+    append_message(peer.bytes_taken, largest, size);
     bytes_answered_ += size;
     const Peer& to = reply_to_ ? *reply_to_ : peer;
     const auto sent = sendto(socket_.fd, message_.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL,
                              reinterpret_cast<const sockaddr*>(&to.address), to.size);
-    count_reply(sent == static_cast<ssize_t>(size));
+    told_of_last_frame_ = sent == static_cast<ssize_t>(size);
+    count_reply(told_of_last_frame_);
 }
 
 }  // namespace quadrig::host

@@ -28,6 +28,9 @@ class UdpLink final : public LiveLink {
     /// Overframing is told where a deadline was missed since the frame before.
     void frame_begins(const FrameStatus& status) override;
 
+    /// In synchronous operation: frames that began without an answer to the Start Of Frame before.
+    [[nodiscard]] std::uint64_t unanswered() const override { return unanswered_.load(std::memory_order_relaxed); }
+
     [[nodiscard]] std::string place() const override { return "port " + std::to_string(port()); }
     [[nodiscard]] std::uint16_t port() const override;
 
@@ -40,6 +43,10 @@ class UdpLink final : public LiveLink {
     void queue(std::span<const Session::Response> responses);
 
     [[nodiscard]] std::size_t largest_reply(std::uint64_t bytes_taken);
+    void append(const Session::Response& response, std::size_t& size);
+    void keep(const Session::Response& message);
+    void append_message(std::uint64_t bytes_taken, std::size_t largest, std::size_t& size);
+    void look_for_answer();
 
     Descriptor socket_;
     PeerGate gate_;                  ///< the link's thread's
@@ -53,6 +60,13 @@ class UdpLink final : public LiveLink {
     std::optional<Peer> reply_to_;
     bool open_;  ///< anybody may reach the link
     std::uint64_t bytes_answered_ = 0;
+    /// Messages that nobody asked for wait until as many bytes have come as they have.
+    std::array<Session::Response, 8> kept_{};
+    std::size_t kept_count_ = 0;
+    std::uint64_t bytes_at_last_message_ = 0;
+    std::uint64_t heard_at_last_frame_ = 0;
+    bool told_of_last_frame_ = false;
+    std::atomic<std::uint64_t> unanswered_{0};
     std::uint32_t misses_ = 0;
 };
 

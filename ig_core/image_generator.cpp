@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ig_core/objects_in_view.h"
-#include "ig_core/scene/deck_coverage.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
 #include "ig_core/spans/row_cover.h"
@@ -56,13 +55,7 @@ struct ImageGenerator::Impl {
             for (const Object& object : model.objects) at_rest.push_back(make_solid(object));
         }
         paints = make_frame_paints(scene);
-        for (std::size_t i = 0; i < scene.cloud_decks.size(); ++i) {
-            const Paint& paint = scene.cloud_decks[i].paint;
-            deck_opaque.push_back(!paints.decks[i].translucent);
-            deck_coverages.emplace_back();
-            if (paints.decks[i].translucent)
-                deck_coverages.back().emplace(scene.textures[*paint.texture], *paint.translucence);
-        }
+        for (const FramePaint& deck : paints.decks) deck_opaque.push_back(!deck.translucent);
     }
 
     /// Puts what moves where it is: objects by scene time, models by the host.
@@ -93,7 +86,6 @@ struct ImageGenerator::Impl {
     std::vector<std::vector<Solid>> models;  // at rest, in their own axes
     FramePaints paints;
     std::vector<std::uint8_t> deck_opaque;
-    std::vector<std::optional<DeckCoverage>> deck_coverages;  // of those with holes
     PlaneSurfaces planes;
     ObjectsInView objects;
     StripIndex polygons_on_strips, lights_on_strips;
@@ -129,9 +121,9 @@ void ImageGenerator::Impl::look_at_decks(const View& view, const Environment& en
         // No depth at all: nowhere to be seen.
         planes.decks.push_back(
             state && !state->shown ? PlaneDepth{} : horizontal_plane(view, state ? state->altitude : deck.altitude));
-        if (const auto& coverage = deck_coverages[i])
+        if (!deck_opaque[i])
             paints.decks[i].threshold =
-                static_cast<float>(state ? coverage->threshold(state->coverage) : deck.paint.translucence->threshold);
+                static_cast<float>(state ? state->threshold : deck.paint.translucence->threshold);
     }
 }
 

@@ -52,9 +52,8 @@ struct PlacedModel {
 /// A cloud deck of the scene as the host has it.
 struct DeckState {
     bool shown = true;
-    double altitude = 0.0;  ///< m
-    /// 0..1: the share of the sky that it covers, by its texture's threshold. A deck without translucence is whole.
-    double coverage = 1.0;
+    double altitude = 0.0;   ///< m
+    double threshold = 0.0;  ///< in place of its translucence's own; nothing to a deck without
 };
 
 /// What the host may change from frame to frame; absent values are the scene's own.

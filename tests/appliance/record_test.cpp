@@ -105,6 +105,56 @@ TEST_CASE("A Modbus host's live run is recorded, tshark reads it, and it gives t
     CHECK_THAT(poses[3][1], Catch::StartsWith("1,2,0,32,16455,41287,44564,31457,"));
 }
 
+TEST_CASE("A run with a body of another link, its quality chosen as it went, gives the same frames bit for bit") {
+    const auto out = scratch_directory();
+    std::ofstream(out / "scene.toml") << small_scene();
+    std::ofstream(out / "run.toml") << "scene = \"scene.toml\"\nlinks = [\"cigi://127.0.0.1:0\"]\nsize = [48, 32]\n"
+                                       "[[entity]]\nmodel = \"x-29\"\nposition = [-12, 6, 40]\n"
+                                       "[[entity]]\nmodel = \"x-29\"\nlink = \"fdm://127.0.0.1:0\"\n";
+    // From above, turning, on a body that climbs towards the eye.
+    std::vector<Bytes> flight;
+    for (int i = 0; i < 60; ++i)
+        flight.push_back(cigi_message(static_cast<std::uint32_t>(i), {70.0, {{0.3 * i}, {-90.0}, {0.0}}}));
+    Program program({"run", out / "run.toml", "--frames", "100", "--quality", "auto", "--record", out / "run.pcapng",
+                     "--report", out / "live.json"});
+    const auto port = program.number_after("cigi://127.0.0.1:0 listens on port ");
+    const auto other_port = program.number_after("fdm://127.0.0.1:0 listens on port ");
+    REQUIRE(port);
+    REQUIRE(other_port);
+    Program host({"send", recording(flight, 8004), "--to", "cigi://127.0.0.1:" + std::to_string(*port)}),
+        other({"send", fdm_climb(60), "--to", "fdm://127.0.0.1:" + std::to_string(*other_port)});
+    CHECK(host.wait().status == 0);
+    CHECK(other.wait().status == 0);
+    const Outcome live = program.wait();
+    INFO(live.err);
+    REQUIRE(live.status == 0);
+    const auto again = [&](const std::string& name, Arguments more) {
+        Arguments arguments{"replay", out / "run.pcapng", "--fast", "--report", out / name};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return quadrig_program(arguments);
+    };
+    const Outcome whole = again("whole.json", {out / "run.toml", "--quality", "auto"});
+    INFO(whole.err);
+    REQUIRE(whole.status == 0);
+    REQUIRE(again("alone.json", {"--scene", out / "scene.toml", "--size", "48x32", "--quality", "auto"}).status == 0);
+    const auto was = report_of(out / "live.json"), is = report_of(out / "whole.json"),
+               alone = report_of(out / "alone.json");
+    CHECK(was["frame_hashes"] == is["frame_hashes"]);
+    CHECK(was["quality"] == is["quality"]);
+    CHECK(was["quality"].size() > 1);
+    CHECK(alone["quality"] == was["quality"]);
+    CHECK(alone["frame_hashes"] != was["frame_hashes"]);
+    REQUIRE(was["links"].size() == 2);
+    REQUIRE(is["links"].size() == 2);
+    for (const char* key : {"entity", "frames", "last_pose"}) CHECK(was["links"][1][key] == is["links"][1][key]);
+    CHECK(was["links"][1]["recorded"]["datagrams"] == 60);
+    CHECK(host::test::tshark_fields(out / "run.entity-2.pcapng", {"udp.length"}).size() == 60);
+    std::filesystem::remove(out / "run.entity-2.pcapng");
+    const Outcome missing = again("none.json", {out / "run.toml"});
+    CHECK(missing.status == 1);
+    CHECK_THAT(missing.err, Catch::Contains("run.entity-2.pcapng"));
+}
+
 // QUADRIG_TEST_SCALE=240 makes it ten minutes.
 TEST_CASE("A recording whose process was killed has all but the last second, and can be played") {
     const double seconds = 0.1 * test::trials(25);
@@ -174,7 +224,7 @@ TEST_CASE("What cannot be recorded or sent is said before anything runs") {
     fails({"run", "--scene", scene(), "--link", "fdm://127.0.0.1:0", "--link", "cigi://127.0.0.1:0", "--record",
            out / "a.pcapng"},
           2, "--record takes one link");
-    std::ofstream(out / "bad.pcapng.frames") << "quadrig-frames 1 rate 60/1\n5,1,0\n4,2,0\n";
+    std::ofstream(out / "bad.pcapng.frames") << "quadrig-frames 2 rate 60/1\n5,1,0,0\n4,2,0,0\n";
     std::filesystem::copy_file(fdm_climb(3), out / "bad.pcapng");
     fails({"replay", out / "bad.pcapng", "--scene", scene(), "--fast"}, 1, "bad.pcapng.frames:3: expected");
 }

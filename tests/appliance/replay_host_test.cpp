@@ -6,12 +6,14 @@
 #include "host_link/cigi.h"
 #include "host_link/geodesy.h"
 #include "host_link/sun_position.h"
+#include "ig_core/scene/deck_coverage.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
 #include "tests/appliance/program.h"
 
 using namespace quadrig;
 using namespace quadrig::tests;
+using namespace std::chrono_literals;
 namespace cigi = quadrig::host::cigi;
 
 namespace {
@@ -175,6 +177,54 @@ TEST_CASE("A layer of weather moves the scene's cloud deck, takes it away, and i
     CHECK(difference(half, rendered(whole, "0,0,14", "12.5,10,0", "60")).mean > 0.1);
 }
 
+TEST_CASE("A region's weather is seen within it, half of it halfway across its perimeter, and not beyond") {
+    const GeodeticPosition north = host::SceneFrame({{47.26}, {11.34}, 581.0}).geodetic({{0, 10e3, 0}});
+    cigi::EnvironmentalRegionControl region{.region = 3,
+                                            .state = cigi::RegionState::active,
+                                            .latitude = north.latitude.value,
+                                            .longitude = north.longitude.value,
+                                            .size_x = 8000.0F,
+                                            .size_y = 2000.0F};
+    const auto seen = [&](const cigi::WeatherControl& weather, float perimeter) {
+        region.transition_perimeter = perimeter;
+        auto regional = weather;
+        regional.scope = cigi::WeatherScope::regional, regional.region = 3;
+        return replayed(cigi_message(0, kPose, host::test::operator+(bytes_of(region), bytes_of(regional))), true,
+                        small_scene());
+    };
+    const auto still = [](const std::string& scene) { return rendered(scene, "0,0,14", "12.5,-3,20", "60"); };
+    const auto clear = still(small_scene()), hazy = still("[haze]\nvisibility = 300.0\n" + small_scene());
+    // The eye is 6 km south of the rectangle. Rain, then sand: what is in the air shortens the view.
+    for (const auto layer : {std::uint8_t{4}, std::uint8_t{8}}) {
+        const cigi::WeatherControl air{.layer = layer,
+                                       .enable = true,
+                                       .visibility = 150.0F,
+                                       .coverage = 60.0F,
+                                       .base = 300.0F,
+                                       .thickness = 900.0F};
+        check_same(seen(air, 12e3F), hazy);
+        check_same(seen(air, 5999.0F), clear);
+    }
+    check_different(hazy, clear);
+    // The deck of the scene, at 900 m with a threshold of 0.1, and the region's.
+    const cigi::WeatherControl deck{.layer = 1,
+                                    .enable = true,
+                                    .visibility = 90.0F,
+                                    .coverage = 70.0F,
+                                    .base = 581.0F + 400.0F,
+                                    .thickness = 100.0F};
+    const Texture grass{.name = "grass", .terms = {{1.0, 0.05, 0.3}, {0.7, 0.11, 1.9}}};
+    const double threshold = DeckCoverage(grass, {0.1, 0.0, 0.3}).threshold(0.7);
+    std::string halfway = small_scene();
+    halfway.replace(halfway.find("altitude = 900.0"), 16, "altitude = 650.0");
+    halfway.replace(halfway.find("threshold = 0.1"), 15, "threshold = " + std::to_string((0.1 + threshold) / 2));
+    CHECK(difference(seen(deck, 12e3F), still(halfway)).mean < 0.05);
+    CHECK(difference(still(halfway), clear).mean > 0.2);
+    region.size_x = 30e3F;
+    CHECK(difference(seen(deck, 0.0F), replayed(cigi_message(0, kPose, bytes_of(deck)), true, small_scene())).largest ==
+          0);
+}
+
 TEST_CASE("A host switches the test pattern and the overlay on and off") {
     const auto seen = [](std::uint16_t component, std::uint8_t state, const Arguments& more = {}) {
         const cigi::ShortComponentControl control{.component = component, .component_class = 13, .state = state};
@@ -187,6 +237,33 @@ TEST_CASE("A host switches the test pattern and the overlay on and off") {
     CHECK(difference(seen(2, 1), seen(3, 1, {"--overlay"})).largest == 0);
     CHECK(difference(seen(2, 0, {"--overlay"}), seen(3, 1)).largest == 0);
     CHECK(difference(seen(2, 1), seen(2, 0)).largest > 100);
+}
+
+TEST_CASE("What moves by rates stops once its host has been silent for as long as its link says") {
+    cigi::EntityControl other;
+    other.entity = 5, other.type = 12;
+    const GeodeticPosition there = host::SceneFrame({{47.26}, {11.34}, 581.0}).geodetic({{-20, 60, 14}});
+    other.latitude = there.latitude.value, other.longitude = there.longitude.value, other.altitude = there.altitude;
+    const cigi::RateControl flies{.entity = 5, .y = 10.0F};  // to the east
+    // The host dies after its first message; something that is none of its own comes two seconds later.
+    const auto flight = recording(
+        {cigi_message(1, {14.0, {}}, host::test::operator+(bytes_of(other), bytes_of(flies))), Bytes(8)}, 8004, 2s);
+    const auto seen = [&](const std::string& link, int frame) {
+        const auto out = scratch_directory();
+        const Outcome outcome = quadrig_program({"replay", flight, "--scene", scratch_file("s.toml", still_scene()),
+                                                 "--size", "160x120", "--rate", "10", "--entity", "12=x-29", "--sink",
+                                                 "png:" + out.string(), "--fast", "--link", link});
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return display::read_png(out / ("frame-0000" + std::to_string(frame) + ".png"));
+    };
+    const auto with_model_at = [](const std::string& x) {
+        return rendered(still_scene() + "[[model]]\nmodel = \"x-29\"\nposition = [" + x + ", 60, 14]\n", "0,0,14",
+                        "0,0,0", "60");
+    };
+    CHECK(difference(seen("cigi:", 18), with_model_at("-10")).mean < 0.02);
+    CHECK(difference(seen("cigi:?silence=1500", 18), with_model_at("-5")).mean < 0.02);
+    CHECK(difference(with_model_at("-10"), with_model_at("-5")).mean > 0.05);
 }
 
 TEST_CASE("An entity of the host is drawn as the model that its type stands for, where the host has it") {

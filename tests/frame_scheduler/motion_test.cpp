@@ -284,7 +284,8 @@ TEST_CASE("A sample lost on the way, which nobody counts, puts the grid right ag
 }
 
 TEST_CASE(
-    "An ownship with rates goes on by them after its newest sample, smoothly, and for as long as no other comes") {
+    "An ownship with rates goes on by them after its newest sample, smoothly, until another comes or the host is "
+    "gone") {
     HostState state;
     state.earlier = sample_at(1000ms, 1, {{{0, 0, 0}}, glm::dmat3(1.0)});
     state.pose = sample_at(1100ms, 2, {{{10, 0, 0}}, glm::dmat3(1.0)});
@@ -300,8 +301,16 @@ TEST_CASE(
     CHECK(x(1120ms) == Approx(10.0));
     CHECK(x(1121ms) == Approx(10.1));
     CHECK(x(9120ms) == Approx(810.0));
+    state.newest_arrival = 1100ms;
+    CHECK(x(2119ms) == Approx(109.9));
+    for (const Time later : {2120ms, 2500ms, 3600'000ms}) CHECK(x(later) == Approx(110.0));
+    state.silence = 3s;
+    CHECK(x(9120ms) == Approx(310.0));
+    state.newest_arrival = 9s;  // it is there again
+    CHECK(x(9120ms) == Approx(810.0));
     state.smoothing = false;
     CHECK(x(1200ms) == Approx(20.0));
+    CHECK(x(13s) == Approx(1100.0));
     own.rates = {};
     CHECK(x(1200ms) == 10.0);
 }

@@ -44,11 +44,20 @@ void check(const HostState& state) {
                 state.utc->hour >= 0 && state.utc->hour < 24 && state.utc->minute >= 0 && state.utc->minute < 60 &&
                 state.utc->second >= 0.0 && state.utc->second < 61.0,
             "date and time are of a calendar and a clock");
-    for (const auto& layer : state.weather)
-        if (layer)
-            law(finite({layer->base, layer->top, layer->visibility}) && layer->coverage >= 0.0 &&
-                    layer->coverage <= 1.0,
-                "a layer of weather is somewhere");
+    const auto check_layers = [](const WeatherLayers& layers) {
+        for (const auto& layer : layers)
+            if (layer)
+                law(finite({layer->base, layer->top, layer->visibility}) && layer->visibility >= 1.0 &&
+                        layer->coverage >= 0.0 && layer->coverage <= 1.0,
+                    "a layer of weather is somewhere");
+    };
+    check_layers(state.weather);
+    law(state.regions.count <= WeatherRegions::kMost, "at most so many regions are kept");
+    for (const WeatherRegion& region : state.regions) {
+        check_layers(region.layers);
+        const double share = region.share_at({});
+        law(share >= 0.0 && share <= 1.0, "a share of a region is a share");
+    }
     law(state.entities.count <= EntityList::kMost + 1, "at most so many entities are known");
     for (const Entity& entity : state.entities) {
         if (entity.placed) law(finite(entity.pose), "entities are somewhere");

@@ -79,6 +79,11 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
     WeatherControl layer;
     layer.layer = 1, layer.enable = true, layer.base = 1500.0F, layer.thickness = 200.0F, layer.coverage = 60.0F;
     layer.visibility = 300.0F;
+    WeatherControl inside = layer;
+    inside.scope = WeatherScope::regional, inside.region = 2, inside.layer = 4;
+    EnvironmentalRegionControl region;
+    region.region = 2, region.state = RegionState::active, region.latitude = 47.26, region.longitude = 11.34;
+    region.size_x = region.size_y = 5000.0F, region.corner_radius = 500.0F, region.transition_perimeter = 800.0F;
     ShortComponentControl pattern;
     pattern.component_class = ShortComponentControl::kSystem, pattern.component = 1, pattern.state = 1;
     SensorControl sensor;
@@ -91,15 +96,16 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
             for (const EntityPosition position : entities) test::append(bytes, position, format);
         return bytes;
     };
-    return {
-        with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
-        with_positions(message(format, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{},
-                               AtmosphereControl{}),
-                       {ownship(47.2601), other}),
-        message(format, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
-        with_positions(message(format, ig_control(4, 6667), hanging, rates, layer, pattern, sensor, feeler), {hanging}),
-        message(format, ig_control(5, 8333), height) +
-            (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
+    return {with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
+            with_positions(message(format, ig_control(2, 3333), ownship(47.2601), other, CelestialSphereControl{},
+                                   AtmosphereControl{}),
+                           {ownship(47.2601), other}),
+            message(format, ig_control(3, 5000), ownship(47.2602), height, segment, vector),
+            with_positions(
+                message(format, ig_control(4, 6667), hanging, rates, layer, region, inside, pattern, sensor, feeler),
+                {hanging}),
+            message(format, ig_control(5, 8333), height) +
+                (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
 }
 
 Bytes fdm(std::uint32_t version, double latitude) {
@@ -224,7 +230,7 @@ void add_recordings(std::vector<Seed>& all) {
     all.push_back({"capture", "linux_cooked", cooked.bytes()});
     std::string frames = first_line({60, 1});
     for (std::uint64_t k = 0; k < 5; ++k)
-        frames += line_of({k, Time(16'666'667 * static_cast<std::int64_t>(k)), 2 * k});
+        frames += line_of({k, Time(16'666'667 * static_cast<std::int64_t>(k)), 2 * k, 1});
     all.push_back({"recorded_frames", "five", bytes_of(frames)});
 }
 
@@ -233,7 +239,8 @@ void add_texts(std::vector<Seed>& all) {
                               "fdm://[::1]:5500?transport=tcp&allow=127.0.0.1,10.0.0.0/8,fe80::/10",
                               "can://vcan0?position=ins&commit=1038&timeout=100&channel=1&node=7",
                               "modbus://localhost:1502?base=100&word_order=cdab&altitude_offset=-12.5",
-                              "cigi:?version=3.3"};
+                              "cigi:?version=3.3",
+                              "cigi://:8004?operation=synchronous&database=7&silence=2500"};
     for (std::size_t i = 0; i < std::size(links); ++i)
         all.push_back({"link_url", "link_" + std::to_string(i), bytes_of(links[i])});
     all.push_back({"scene", "every_key", bytes_of(tests::kExampleScene)});

@@ -194,6 +194,18 @@ TEST_CASE("Every 4.0 packet about the air, components and sensors has each field
                              &p.aerosol, &p.top_scud_frequency, &p.top_transition})
             t.real(at, *value), at += 4;
     });
+    judge<cigi::EnvironmentalRegionControl>(48, 0x000A, [](Table& t, cigi::EnvironmentalRegionControl& p) {
+        t.bits(4, 0, 2, p.state);
+        unsigned bit = 2;
+        for (bool* flag : {&p.merge_weather, &p.merge_aerosol, &p.merge_maritime, &p.merge_terrestrial})
+            t.bits(4, bit++, 1, *flag);
+        t.whole(6, p.region);
+        t.real(8, p.latitude);
+        t.real(16, p.longitude);
+        std::size_t at = 24;
+        for (float* value : {&p.size_x, &p.size_y, &p.corner_radius, &p.rotation, &p.transition_perimeter})
+            t.real(at, *value), at += 4;
+    });
     judge<cigi::ShortComponentControl>(24, 0x0004, [](Table& t, cigi::ShortComponentControl& p) {
         t.whole(4, p.component);
         t.whole(6, p.component_class);
@@ -222,6 +234,19 @@ TEST_CASE("Every 4.0 packet about the air, components and sensors has each field
         t.real(12, p.gate_azimuth);
         t.real(16, p.gate_elevation);
         t.whole(20, p.host_frame);
+    });
+    judge<cigi::SensorExtendedResponse>(56, 0x0FFA, [](Table& t, cigi::SensorExtendedResponse& p) {
+        t.whole(4, p.view);
+        t.whole(6, p.entity);
+        t.whole(8, p.sensor);
+        t.bits(9, 0, 2, p.status);
+        t.bits(9, 2, 1, p.entity_valid);
+        t.whole(12, p.gate_width);
+        t.whole(14, p.gate_height);
+        t.real(16, p.gate_azimuth);
+        t.real(20, p.gate_elevation);
+        t.whole(24, p.host_frame);
+        t.reals(32, p.track_point);
     });
 }
 

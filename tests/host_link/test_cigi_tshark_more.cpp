@@ -53,7 +53,22 @@ Columns random_motion_and_weather(Random& random, Bytes& bytes, ByteOrder order)
                 {"wind_direction", &weather.wind_direction},
                 {"barometric_pressure", &weather.pressure},
                 {"aerosol_concentration", &weather.aerosol}});
-    bytes = message(order, ig_control(1), rate, weather);
+    cigi::EnvironmentalRegionControl region;
+    Fields g{random, c, "env_region_control"};
+    g.number("region_id", region.region);
+    g.bits("region_state", region.state, 2);
+    g.bits("merge_weather", region.merge_weather, 1);
+    g.bits("merge_aerosol", region.merge_aerosol, 1);
+    g.bits("merge_maritime", region.merge_maritime, 1);
+    g.bits("merge_terrestrial", region.merge_terrestrial, 1);
+    g.number("lat", region.latitude);
+    g.number("lon", region.longitude);
+    numbers(g, {{"size_x", &region.size_x},
+                {"size_y", &region.size_y},
+                {"corner_radius", &region.corner_radius},
+                {"rotation", &region.rotation},
+                {"transition_perimeter", &region.transition_perimeter}});
+    bytes = message(order, ig_control(1), rate, weather, region);
     return c;
 }
 
@@ -110,6 +125,21 @@ Columns random_told(Random& random, Bytes& bytes, ByteOrder order) {
     numbers(s, {{"gate_x_pos", &sensor.gate_azimuth}, {"gate_y_pos", &sensor.gate_elevation}});
     s.number("frame_ctr", sensor.host_frame);
 
+    cigi::SensorExtendedResponse more;
+    Fields x{random, c, "sensor_ext_response"};
+    x.number("view_id", more.view);
+    x.number("sensor_id", more.sensor);
+    x.bits("sensor_status", more.status, 2);
+    x.bits("entity_id_valid", more.entity_valid, 1);
+    x.number("entity_id", more.entity);
+    x.number("gate_x_size", more.gate_width);
+    x.number("gate_y_size", more.gate_height);
+    numbers(x, {{"gate_x_pos", &more.gate_azimuth}, {"gate_y_pos", &more.gate_elevation}});
+    x.number("frame_ctr", more.host_frame);
+    x.number("track_lat", more.track_point[0]);
+    x.number("track_lon", more.track_point[1]);
+    x.number("track_alt", more.track_point[2]);
+
     cigi::CollisionSegmentNotification hit;
     Fields h{random, c, "coll_det_seg_notification"};
     h.number("entity_id", hit.entity);
@@ -125,7 +155,7 @@ Columns random_told(Random& random, Bytes& bytes, ByteOrder order) {
     const std::string digits = std::to_string(random.below(1000000));
     m.expect("message", std::stod(digits));
     text.text = digits;
-    bytes = message(order, cigi::StartOfFrame{}, sensor, hit, text);
+    bytes = message(order, cigi::StartOfFrame{}, sensor, more, hit, text);
     return c;
 }
 

@@ -58,6 +58,13 @@ TEST_CASE("Options of a link are read") {
     CHECK(url.view == 2);
     CHECK(url.altitude_offset == -48.5);
     CHECK(parse_link_url("cigi:?view=3").view == 3);
+    CHECK(parse_link_url("cigi:?database=5").database == 5);
+    CHECK(parse_link_url("cigi://:8004?operation=synchronous").synchronous);
+    CHECK_FALSE(parse_link_url("cigi://:8004?operation=asynchronous").synchronous);
+    for (const char* link : {"cigi:", "fdm://:5500", "can://can0", "modbus://:1502"}) {
+        CHECK(parse_link_url(link).trust.silence == std::chrono::seconds(1));
+        CHECK(parse_link_url(std::string(link) + "?silence=2500").trust.silence == std::chrono::milliseconds(2500));
+    }
     CHECK(parse_link_url("fdm:?altitude_offset=2").altitude_offset == 2.0);
 }
 
@@ -105,6 +112,10 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?transport=sctp"), Contains("udp or tcp"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?transport=tcp"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?database=128"), Contains("from 1 to 127"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?operation=both"), Contains("synchronous or asynchronous"));
+    CHECK_THAT(error_of("fdm://127.0.0.1:80?operation=synchronous"), Contains("unknown option"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?silence=99"), Contains("from 100 to 3600000"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow="), Contains("ADDRESS[/BITS]"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/33"), Contains("from 0 to 32"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?allow=10.0.0.0/"), Contains("from 0 to 32"));

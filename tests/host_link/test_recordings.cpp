@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host_link/capture.h"
+#include "host_link/recorded_frames.h"
 #include "host_link/session.h"
 #include "support.h"
 
@@ -177,4 +178,11 @@ TEST_CASE("tshark and we read the same numbers in every packet of the recorded C
         REQUIRE(std::stod(rows[i][4]) == Approx(pose.position.altitude).epsilon(1e-14));
         REQUIRE(std::stod(rows[i][5]) == Approx(pose.attitude.heading.value).epsilon(1e-5));
     }
+}
+
+TEST_CASE("The recordings of one run's links stand beside one another, a log only where it can be one") {
+    CHECK(recording_of_entity("a/flight.pcapng", 2, Protocol::flightgear_fdm) == "a/flight.entity-2.pcapng");
+    CHECK(recording_of_entity("flight.log", 1, Protocol::canaerospace) == "flight.entity-1.log");
+    CHECK(recording_of_entity("flight.log", 1, Protocol::cigi) == "flight.entity-1.pcapng");
+    CHECK(recording_of_entity("flight", 3, Protocol::modbus) == "flight.entity-3");
 }

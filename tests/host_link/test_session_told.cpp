@@ -84,7 +84,6 @@ TEST_CASE("Layers of weather are the host's, in heights of the scene; all other 
     CHECK(deck.top == 2300.0);
     CHECK(deck.coverage == Approx(0.4));
     CHECK(deck.visibility == 80.0);
-    CHECK((deck.holds(2100.0) && !deck.holds(1999.0) && !deck.holds(2301.0)));
     layer.layer = 0, layer.enable = false;
     CHECK_FALSE(host.send(layer).weather[0]->enabled);
     layer.enable = true;
@@ -92,7 +91,9 @@ TEST_CASE("Layers of weather are the host's, in heights of the scene; all other 
         layer.scope = scope;
         CHECK_FALSE(host.send(layer).weather[0]->enabled);
     }
-    layer.scope = cigi::WeatherScope::global, layer.layer = 4;
+    layer.scope = cigi::WeatherScope::global, layer.layer = 9;
+    CHECK(host.send(layer).weather[9]->base == 2000.0);
+    layer.layer = 10;
     host.send(layer);
     CHECK(host.refused() == 0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -216,6 +217,16 @@ TEST_CASE("A sensor is answered once where it does not track, and in every frame
         for (std::uint32_t i = 3; i < 6; ++i) {
             host.send();
             CHECK(host.told<cigi::SensorResponse>().host_frame == i);
+        }
+        sensor.extended_response = true;
+        host.send(sensor);
+        for (std::uint32_t i = 7; i < 9; ++i) {
+            host.send();
+            const auto extended = host.told<cigi::SensorExtendedResponse>();
+            CHECK(extended.view == 300);
+            CHECK(extended.sensor == 2);
+            CHECK(extended.host_frame == i);
+            CHECK((extended.status == 0 && !extended.entity_valid));
         }
         sensor.on = false;
         host.send(sensor);

@@ -231,7 +231,6 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
         Session session(SessionOptions{});
         CHECK_FALSE(session.reply_context().has_value());
         auto ig = ig_control(4711);
-        ig.database = 3;
         session.accept(message(order, ig), 0ms);
         std::array<std::byte, cigi::StartOfFrame::kSize> bytes{};
         REQUIRE(start_of_frame(session.reply_context().value(), 99, 123450us, false, bytes) == 24);
@@ -242,13 +241,90 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
         CHECK(sof.timestamp_valid);
         CHECK(sof.mode == cigi::IgMode::operate);
         CHECK(sof.minor_version == 3);
-        CHECK(sof.database == 3);
+        CHECK(sof.database == 0);
         CHECK(load<std::uint16_t>(bytes, 6, order) == 0x8000);
 
         ig.last_ig_frame.reset();
         ig.minor_version = 0;
         session.accept(message(order, ig), 0ms);
         CHECK(start_of_frame(session.reply_context().value(), 99, 0ms, false, bytes) == 16);
+    }
+}
+
+TEST_CASE("A database is told as loading until the host has taken notice, then as loaded, and another is not there") {
+    for (const auto available : {std::optional<std::int8_t>(), std::optional<std::int8_t>(3)}) {
+        SessionOptions options;
+        options.database = available;
+        Session session(options);
+        std::uint32_t frame = 0;
+        const auto told = [&](int wanted) {
+            auto ig = ig_control(++frame);
+            ig.database = static_cast<std::int8_t>(wanted);
+            session.accept(message(ByteOrder::big, ig), 0ms);
+            return int{session.reply_context()->database};
+        };
+        CHECK(told(0) == 0);
+        CHECK(told(3) == -3);
+        CHECK(told(0) == 3);
+        CHECK(told(0) == 3);
+        CHECK(told(3) == 3);
+        CHECK(told(5) == (available ? -128 : -5));
+        // A host that goes on asking gets there as well.
+        CHECK(told(5) == (available ? -128 : 5));
+        CHECK(told(0) == (available ? 3 : 5));
+        CHECK(told(3) == (available ? 3 : -3));
+        CHECK(told(5) == (available ? -128 : -5));
+        CHECK(session.statistics().rejected_in_all() == 0);
+        told(-3);
+        CHECK(session.statistics().rejected_for(Reject::out_of_range) == 1);
+    }
+}
+
+TEST_CASE("A host that goes to standby has everything that it put there taken away, but where it is") {
+    Host host;
+    cigi::EntityControl other = ownship(47.3);
+    other.entity = 9, other.type = 2;
+    const cigi::WeatherControl fog{.enable = true, .visibility = 90.0F, .coverage = 100.0F, .thickness = 100.0F};
+    cigi::WeatherControl regional = fog;
+    regional.scope = cigi::WeatherScope::regional;
+    const cigi::ShortComponentControl pattern{.component = 1, .component_class = 13, .state = 1};
+    host.send(ownship(47.2), other, fog, regional, noon(), cigi::AtmosphereControl{.visibility = 900.0F}, pattern,
+              cigi::ViewDefinition{.view = 4, .group = 2, .left_enable = true, .left = -9.0F},
+              cigi::ViewControl{.view = 4, .yaw_enable = true, .entity = 9, .yaw = 20.0F});
+    auto ig = ig_control(1000);
+    ig.mode = cigi::IgMode::standby;
+    host.session.accept(message(ByteOrder::big, ig), 30s);
+    const HostState& state = host.session.state();
+    CHECK(state.mode == Mode::standby);
+    CHECK(state.pose->position.latitude.value == 47.2);
+    CHECK(state.entities.count == 0);
+    CHECK_FALSE((state.mount || state.window || state.view_entity || state.visibility || state.utc ||
+                 state.weather[0] || state.test_pattern));
+    CHECK(state.regions.count == 0);
+    // What comes in standby stays, and another view may be ours.
+    ig.host_frame = 1001;
+    host.session.accept(
+        message(ByteOrder::big, ig, other, cigi::ViewControl{.view = 5, .yaw_enable = true, .yaw = 3.0F}), 31s);
+    ig.host_frame = 1002, ig.mode = cigi::IgMode::operate;
+    host.session.accept(message(ByteOrder::big, ig), 32s);
+    CHECK(host.session.state().entities.count == 1);
+    CHECK(host.session.state().mount->attitude.heading.value == 3.0);
+}
+
+TEST_CASE("In synchronous operation nothing is smoothed, whatever the host asks for") {
+    for (const bool synchronous : {false, true}) {
+        SessionOptions options;
+        options.synchronous = synchronous;
+        Session session(options);
+        auto ig = ig_control(1);
+        ig.smoothing = true;
+        auto other = ownship(47.3);
+        other.entity = 9;
+        auto own = ownship(47.2);
+        own.smoothing = other.smoothing = true;
+        session.accept(message(ByteOrder::big, ig, own, other), 0ms);
+        CHECK(session.state().smoothing == !synchronous);
+        CHECK(session.state().entities.find(9)->smoothing == !synchronous);
     }
 }
 

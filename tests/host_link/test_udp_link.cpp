@@ -219,7 +219,7 @@ TEST_CASE("Of two hosts at once the first holds the link where that is asked for
         CHECK(cigi::decode<cigi::StartOfFrame>(first.receive(), ByteOrder::big).last_host_frame == f);
     }
     CHECK(second.receive(0ms).empty());
-    std::this_thread::sleep_for(PeerGate::kSilence + 10ms);
+    std::this_thread::sleep_for(kSilence + 10ms);
     second.send(frame(51, ByteOrder::little));
     REQUIRE(wait_until([&] { return link.take_newest(state); }));
     CHECK(state.host_frame == 51U);
@@ -274,6 +274,33 @@ TEST_CASE("A link that anybody may reach sends no more bytes back than came") {
         CHECK((received <= sent) == (link == &open));
         CHECK(received > sent / 2);
     }
+}
+
+TEST_CASE("A message that nobody asked for waits until as many bytes have come as it has") {
+    UdpLink link(parse_link_url("cigi://127.0.0.1:0"));
+    link.start(session_options(link.url(), kHome));
+    Peer host(link.port());
+    auto ig = ig_control(1);
+    ig.last_ig_frame.reset();  // before 3.2: 16 bytes
+    const Bytes heartbeat = message(ByteOrder::big, ig);
+    // 48 bytes, and a warning of 56.
+    const Bytes wrong =
+        message(ByteOrder::big, ig, cigi::ViewControl{.view = 60000, .yaw_enable = true, .entity = 50000});
+    const auto reply_to = [&](const Bytes& bytes) {
+        host.send(bytes);
+        HostState state;
+        REQUIRE(wait_until([&] { return link.take_newest(state); }));
+        link.send_start_of_frame(1, 0ms);
+        return host.receive();
+    };
+    CHECK(reply_to(wrong).size() == 16);
+    link.send_start_of_frame(2, 16ms);
+    CHECK(host.receive().size() == 16);
+    const Bytes told = reply_to(heartbeat);
+    REQUIRE(told.size() == 16 + 56);
+    CHECK(std::string(reinterpret_cast<const char*>(told.data() + 20)) ==
+          "view 60000 is on entity 50000, which is unknown");
+    CHECK(reply_to(heartbeat).size() == 16);
 }
 
 TEST_CASE("A port that is taken is a clear error") {

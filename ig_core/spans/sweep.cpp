@@ -14,14 +14,12 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
     return true;
 }
 
-bool covers_pixel(const RowSpan& span, int column) { return span.inner_from <= column && column < span.inner_to; }
-
 }  // namespace
 
 void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
     std::size_t position = active_.size();
     for (std::size_t i = 0; i < active_.size(); ++i) {
-        const RowSpan &span = spans[index], &other = spans[active_[i]];
+        const RowSpan &span = spans[index], &other = spans[active_[i].span];
         const Priority priority = priority_of(span, other, row, pieces_);
         if (priority == Priority::crossing) {
             for (RowSpan& piece : pieces_) {
@@ -42,7 +40,9 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
             if (covers(other, span, row)) break;  // in front of it, so in front of all behind it
         }
     }
-    active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(position), index);
+    const RowSpan& span = spans[index];
+    active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(position),
+                   {index, span.surface.opaque, span.inner_from, span.inner_to, span.outer_to});
 }
 
 void RowSweep::emit(int from, int to) {
@@ -50,17 +50,16 @@ void RowSweep::emit(int from, int to) {
     bool partial = false;
     std::size_t i = 0;
     for (; i < active_.size(); ++i) {
-        const RowSpan& span = spans[active_[i]];
-        const bool whole = covers_pixel(span, from);
-        layers.push_back(active_[i]);
+        const bool whole = active_[i].covers(from);
+        layers.push_back(active_[i].span);
         partial = partial || !whole;
-        if (whole && span.surface.opaque) break;
+        if (whole && active_[i].opaque) break;
     }
     if (i < active_.size()) {
         // What ends before the opaque span in front of it does will not be seen again.
-        const int hidden_to = spans[active_[i]].inner_to;
+        const int hidden_to = active_[i].inner_to;
         active_.erase(std::remove_if(active_.begin() + static_cast<std::ptrdiff_t>(i) + 1, active_.end(),
-                                     [&](std::uint32_t s) { return spans[s].outer_to <= hidden_to; }),
+                                     [&](const Active& other) { return other.outer_to <= hidden_to; }),
                       active_.end());
     }
     const auto count = static_cast<std::uint32_t>(layers.size()) - first;
@@ -94,17 +93,16 @@ void RowSweep::sweep(const PixelRow& row) {
             insert(index, row);
         }
         int next = starts_.empty() ? row.columns : std::min(starts_.back().column, row.columns);
-        for (const std::uint32_t index : active_) {
-            const RowSpan& span = spans[index];
+        for (const Active& span : active_) {
             if (span.inner_from > column) next = std::min(next, span.inner_from);
             if (span.inner_to > column) next = std::min(next, span.inner_to);
             next = std::min(next, span.outer_to);
         }
         emit(column, next);
         column = next;
-        active_.erase(std::remove_if(active_.begin(), active_.end(),
-                                     [&](std::uint32_t s) { return spans[s].outer_to <= column; }),
-                      active_.end());
+        active_.erase(
+            std::remove_if(active_.begin(), active_.end(), [&](const Active& span) { return span.outer_to <= column; }),
+            active_.end());
     }
 }
 

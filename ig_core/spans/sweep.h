@@ -33,8 +33,15 @@ class RowSweep {
         int column;
         std::uint32_t span;
     };
-    std::vector<Start> starts_;          // by falling column: the next one is last
-    std::vector<std::uint32_t> active_;  // front to back
+    std::vector<Start> starts_;  // by falling column: the next one is last
+    /// A span that the sweep is over, with what every step asks of it.
+    struct Active {
+        std::uint32_t span;
+        bool opaque;
+        int inner_from, inner_to, outer_to;
+        [[nodiscard]] bool covers(int column) const { return inner_from <= column && column < inner_to; }
+    };
+    std::vector<Active> active_;  // front to back
     CrossingPieces pieces_;
 };
 

@@ -95,8 +95,9 @@ void find_boundaries(Outline& out) {
             const glm::dvec3 line = intersection_line(e, pi, pj);
             if (out.direct) {
                 if (!hidden)
-                    out.lines.push_back(
-                        {line, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+                    out.lines.push_back({line, -std::numeric_limits<double>::infinity(),
+                                         std::numeric_limits<double>::infinity(), static_cast<std::uint8_t>(i),
+                                         static_cast<std::uint8_t>(j)});
                 continue;
             }
             const glm::dvec3 direction = glm::cross(pi.normal, pj.normal);
@@ -106,7 +107,8 @@ void find_boundaries(Outline& out) {
             const glm::dvec3 origin = glm::cross(direction, moment) / length2;
             const LineSegment segment = clip_line(e, origin, direction, i, j);
             if (!(segment.from < segment.to)) continue;
-            EdgeLine edge{line, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+            EdgeLine edge{line, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                          static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)};
             for (const double t : {segment.from, segment.to}) {
                 const glm::dvec3 p = e.anchor + origin + t * direction;
                 const double xi = p.x / p.y, zeta = p.z / p.y;

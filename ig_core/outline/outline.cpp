@@ -7,116 +7,17 @@
 
 #include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/key_points.h"
+#include "ig_core/outline/row_order.h"
 
 namespace quadrig {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Boundaries closer than this (image-plane units; a pixel is 1e-5 at the least) are one: the sliver between them is
-/// not asked.
-constexpr double kSliver = 1e-12;
 /// Boundaries of a band that come out of order by more than this are solved again on their row.
 constexpr double kDisorder = 1e-11;
 
-/// A discriminant this small beside its terms may be zero.
-constexpr double kTouch = 1e-12;
-
-struct Candidate {
-    double xi;
-    Boundary boundary;
-};
-constexpr std::size_t kMaxCandidates = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlanes * (kMaxEyePlanes - 1) / 2;
-
-double line_on_row(const glm::dvec3& line, double zeta) { return -(line.y + line.z * zeta) / line.x; }
-
-/// Whether the row is clear of the curve by more than rounding. A wedge's edge is a double line: it is touched
-/// everywhere.
-bool misses_row(const RowConic& conic, double zeta) {
-    const double discriminant = conic.discriminant_at(zeta);
-    if (discriminant >= 0.0) return false;
-    const double beta = conic.beta_at(zeta);
-    return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
-}
-
-bool may_be_seen(const CurveRows& rows, double zeta) {
-    constexpr double kRounding = 1e-9;
-    return zeta >= rows.zeta_from - kRounding && zeta <= rows.zeta_to + kRounding;
-}
-
-/// Every place on a row where the visible surface may change, sorted. Of a bounded solid only what lies on it counts.
-std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
-    const EyeSolid& e = outline.solid;
-    std::size_t count = 0;
-    const auto add = [&](double xi, Boundary boundary) {
-        if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
-    };
-    const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
-        if (!outline.direct && !may_be_seen(outline.curve_rows[curve], zeta)) return;
-        if (misses_row(outline.curves[curve], zeta)) return;
-        const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
-        if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});
-        if (on_solid(roots.falling)) add(roots.falling, {Boundary::Kind::falling, curve});
-    };
-    // The point at k = over/under on the ray; where `under` is little more than rounding, nothing is known of it.
-    const auto kept = [&](const glm::dvec3& d, double over, double under, const EyePlane* own) {
-        constexpr double kUnknown = 1e-8;
-        if (outline.direct || !(std::abs(under) > kUnknown * glm::dot(d, d))) return true;
-        const double k = over / under;
-        return k > 0.0 && kept_by_planes(e, k * d, own);
-    };
-    add_roots(0, [&](double xi) {
-        const glm::dvec3 d(xi, 1.0, zeta);
-        return kept(d, -glm::dot(e.v, d), value(e.m, d), nullptr);
-    });
-    std::uint16_t curve = 1;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        if (!plane.cuts) continue;
-        add_roots(curve++, [&](double xi) {
-            const glm::dvec3 d(xi, 1.0, zeta);
-            return kept(d, -plane.at_eye, glm::dot(plane.normal, d), &plane);
-        });
-    }
-    for (std::uint16_t i = 0; i < outline.lines.size(); ++i)
-        if (zeta >= outline.lines[i].zeta_from && zeta <= outline.lines[i].zeta_to)
-            add(line_on_row(outline.lines[i].line, zeta), {Boundary::Kind::line, i});
-    std::sort(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const Candidate& a, const Candidate& b) { return a.xi < b.xi; });
-    return count;
-}
-
-/// One row solved by itself. Calls `found(boundary, xi, surface)` for each place from left to right where the surface
-/// to the right differs from the one to the left.
-template <class Found>
-void solve_row(const Outline& outline, double zeta, Found&& found) {
-    std::array<Candidate, kMaxCandidates> candidates;
-    const std::size_t count = candidates_on_row(outline, zeta, candidates);
-    int surface = kNoSurface;
-    double left = -kInfinity;
-    Boundary left_boundary{Boundary::Kind::left_end, 0};
-    for (std::size_t i = 0; i <= count; ++i) {
-        const double right = i < count ? candidates[i].xi : kInfinity;
-        const bool outside = (i == 0 || i == count) && !outline.direct;  // of a bounded solid: nothing is there
-        if (outside && surface != kNoSurface) found(left_boundary, left, surface = kNoSurface);
-        if (!outside && right - left > kSliver) {
-            double middle = 0.5 * (left + right);
-            if (!std::isfinite(left))
-                middle = std::isfinite(right) ? right - 1.0 - std::abs(right) : 0.0;
-            else if (!std::isfinite(right))
-                middle = left + 1.0 + std::abs(left);
-            const int here = surface_at(outline.solid, middle, zeta);
-            if (here != surface) found(left_boundary, left, here);
-            surface = here;
-        }
-        if (i < count) {
-            left = right;
-            left_boundary = candidates[i].boundary;
-        }
-    }
-    if (surface != kNoSurface) found(Boundary{Boundary::Kind::right_end, 0}, kInfinity, kNoSurface);
-}
-
-void find_bands(const RowGrid& rows, Outline& out) {
+void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
+    RowOrder order;
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
     auto& keys = out.key_points;
@@ -130,10 +31,12 @@ void find_bands(const RowGrid& rows, Outline& out) {
         const double last_row = std::floor((rows.top - (from + out.solid.z0)) / rows.step - 0.5 + 1e-9);
         if (last_row >= first_row) {
             const auto first = static_cast<std::uint32_t>(out.boundaries.size());
-            solve_row(out, 0.5 * (from + to), [&](Boundary boundary, double, int surface) {
-                out.boundaries.push_back(boundary);
-                out.surfaces.push_back(static_cast<std::int8_t>(surface));
-            });
+            const double zeta = 0.5 * (from + to);
+            if (!convex_rows || !tell_row(out, zeta, order)) solve_row(out, zeta, order);
+            for (const Change& change : order) {
+                out.boundaries.push_back(change.boundary);
+                out.surfaces.push_back(static_cast<std::int8_t>(change.surface));
+            }
             const auto count = static_cast<std::uint32_t>(out.boundaries.size()) - first;
             if (count > 0) out.bands.push_back({from, to, first, count});
         }
@@ -158,7 +61,7 @@ double intercept(const Outline& outline, const Boundary& boundary, double zeta) 
         case Boundary::Kind::falling:
             return falling_on_row(outline.curves[boundary.index], zeta);
         case Boundary::Kind::line:
-            return line_on_row(outline.lines[boundary.index].line, zeta);
+            return outline.lines[boundary.index].on_row(zeta);
         case Boundary::Kind::left_end:
             return -kInfinity;
         case Boundary::Kind::right_end:
@@ -206,21 +109,25 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         return;
     }
     find_key_points(out);
-    find_bands(rows, out);
+    const bool edge_on = std::any_of(out.solid.planes.begin(), out.solid.planes.begin() + out.solid.plane_count,
+                                     [](const EyePlane& plane) { return plane.at_eye == 0.0; });
+    find_bands(rows, solid.ellipsoid && !near_plane && !edge_on && set_up == SetUp::anchored, out);
 }
 
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {
     int count = 0;
     bool open = false;
-    solve_row(outline, z - outline.solid.z0, [&](const Boundary&, double xi, int surface) {
-        const double x = outline.solid.x0 + xi;
+    RowOrder order;
+    solve_row(outline, z - outline.solid.z0, order);
+    for (const Change& change : order) {
+        const double x = outline.solid.x0 + change.xi;
         if (open) {
             cuts[count].to = x;
             ++count;
         }
-        open = surface != kNoSurface && count < kMaxCuts;
-        if (open) cuts[count] = {x, x, surface};
-    });
+        open = change.surface != kNoSurface && count < kMaxCuts;
+        if (open) cuts[count] = {x, x, change.surface};
+    }
     return count;
 }
 

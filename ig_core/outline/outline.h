@@ -28,6 +28,8 @@ struct Boundary {
 struct EdgeLine {
     glm::dvec3 line{0.0};  ///< X_ij of Eq 14
     double zeta_from = 0, zeta_to = 0;
+    std::uint8_t plane = 0, other_plane = 0;  ///< i and j, indices into EyeSolid::planes
+    [[nodiscard]] double on_row(double zeta) const { return -(line.y + line.z * zeta) / line.x; }
 };
 
 /// Rows on which a curve can be seen: from the first to the last of the key points on it.

@@ -1,0 +1,48 @@
+/// What one row of an outline shows: its boundaries from left to right and the surface to the right of each.
+#pragma once
+
+#include <array>
+
+#include "ig_core/outline/outline.h"
+
+namespace quadrig {
+
+/// A place on a row where the visible surface changes.
+struct Change {
+    Boundary boundary;
+    double xi;
+    int surface;  ///< to its right
+};
+
+/// From left to right; the last one's surface is kNoSurface.
+class RowOrder {
+  public:
+    /// Every pair of planes can meet, every curve cross the row twice, and the row has a left and a right end.
+    static constexpr std::size_t kCapacity = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlanes * (kMaxEyePlanes - 1) / 2;
+
+    void clear() { count_ = 0; }
+    /// What comes on top of kCapacity is left out.
+    void add(const Change& change) {
+        if (count_ < kCapacity) changes_[count_++] = change;
+    }
+    [[nodiscard]] int last_surface() const { return count_ > 0 ? changes_[count_ - 1].surface : kNoSurface; }
+    [[nodiscard]] const Change* begin() const { return changes_.data(); }
+    [[nodiscard]] const Change* end() const { return changes_.data() + count_; }
+
+  private:
+    std::size_t count_ = 0;
+    std::array<Change, kCapacity> changes_;
+};
+
+/// Solves a row by itself, the slow, sure way: finds every boundary candidate on it and asks for the surface in the
+/// middle of every interval between two.
+void solve_row(const Outline& outline, double zeta, RowOrder& order);
+
+/// Tells a row between two key points from the edges and curves that are seen on it, for an ellipsoid whole in front
+/// of the near plane. There a row is a slice of a convex body, its nearer side a chain of faces with quadric
+/// between them: a face ends in its edges on the row, or else where its plane's chord does; and it is limb or contact
+/// line that the quadric ends at. One ray in the middle of every interval has to agree. False, with `order` undefined,
+/// where it does not or where more than one chain may be meant: solve_row then knows.
+bool tell_row(const Outline& outline, double zeta, RowOrder& order);
+
+}  // namespace quadrig

@@ -68,6 +68,14 @@ void set_forms(EyeSolid& e) {
 
 }  // namespace
 
+bool misses_row(const RowConic& conic, double zeta) {
+    constexpr double kTouch = 1e-12;  // a discriminant this small beside its terms may be zero
+    const double discriminant = conic.discriminant_at(zeta);
+    if (discriminant >= 0.0) return false;
+    const double beta = conic.beta_at(zeta);
+    return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
+}
+
 double rising_on_row(const RowConic& conic, double zeta) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
     return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
@@ -79,7 +87,10 @@ double falling_on_row(const RowConic& conic, double zeta) {
 }
 
 RowRoots roots_on_row(const RowConic& conic, double zeta) {
-    return {rising_on_row(conic, zeta), falling_on_row(conic, zeta)};
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    const double sum = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
+    const double one = sum / conic.alpha, other = conic.gamma_at(zeta) / sum;
+    return beta <= 0.0 ? RowRoots{one, other} : RowRoots{other, one};
 }
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,

@@ -57,6 +57,10 @@ struct RowConic {
     }
 };
 
+/// Whether the row is clear of the curve by more than rounding. A wedge's edge is a double line: it is touched
+/// everywhere.
+bool misses_row(const RowConic& conic, double zeta);
+
 /// Intercepts of a conic with a row: `rising`, where the form goes from negative to positive with xi, and `falling`.
 /// Each is infinite or NaN where it does not exist. A discriminant below zero counts as zero: rows just outside a curve
 /// touch it.

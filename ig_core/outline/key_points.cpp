@@ -30,11 +30,7 @@ bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
 /// A key point on one or two curves.
 void add_key_point(Outline& out, const KeyPoint& point, std::size_t curve, std::size_t other) {
     out.key_points.push_back(point);
-    for (const std::size_t i : {curve, other}) {
-        CurveRows& rows = out.curve_rows[i];
-        rows.zeta_from = std::min(rows.zeta_from, point.zeta);
-        rows.zeta_to = std::max(rows.zeta_to, point.zeta);
-    }
+    for (const std::size_t i : {curve, other}) out.curve_rows[i].add(point.zeta);
 }
 
 /// Limb points are where the ray touches the quadric, k = -B/A.
@@ -61,7 +57,7 @@ void add_curve_extrema(Outline& out, std::size_t index, const EyePlane& plane) {
 
 /// Contact points: limb and visibility line meet (Eq 6, 12).
 void add_contacts(Outline& out, std::size_t curve, const EyePlane& plane) {
-    const glm::dvec3 v = visibility_line(out.solid, plane);
+    const glm::dvec3& v = out.visibility_lines[curve];
     const bool by_zeta = std::abs(v.x) >= std::abs(v.z);
     const double lead = by_zeta ? v.x : v.z;
     if (lead == 0.0) return;
@@ -87,6 +83,7 @@ void find_boundaries(Outline& out) {
         curve_of[static_cast<std::size_t>(i)] = out.curves.size();
         out.curves.push_back(intersection_curve_on_rows(e, pi));
         out.curve_rows.emplace_back();
+        out.visibility_lines.push_back(visibility_line(e, pi));
         for (int j = 0; j < i; ++j) {
             const EyePlane& pj = e.planes[static_cast<std::size_t>(j)];
             if (!pj.cuts) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/key_points.h"
 #include "ig_core/outline/row_order.h"
@@ -13,26 +14,28 @@ namespace quadrig {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Boundaries of a band that come out of order by more than this are solved again on their row.
-constexpr double kDisorder = 1e-11;
-
+/// `convex_rows`: the solid is an ellipsoid whole in front of the near plane, by its anchored forms.
 void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
+    std::optional<ConvexRows> convex;
+    if (convex_rows) convex.emplace(out);
     RowOrder order;
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
     auto& keys = out.key_points;
     std::sort(keys.begin(), keys.end(), [](const KeyPoint& a, const KeyPoint& b) { return a.zeta < b.zeta; });
-    double from = z_low;
+    const double rows_per_unit = 1.0 / rows.step;
+    const auto row_at = [&](double zeta) { return (z_high - zeta) * rows_per_unit - 0.5; };
+    double from = z_low, from_row = row_at(from);
     const auto close_band = [&](double to) {
         to = std::min(to, z_high);
         if (!(to > from)) return;
+        constexpr double kRounding = 1e-9;
+        const double to_row = row_at(to);
         // A band without a row of the grid needs no answer.
-        const double first_row = std::ceil((rows.top - (to + out.solid.z0)) / rows.step - 0.5 - 1e-9);
-        const double last_row = std::floor((rows.top - (from + out.solid.z0)) / rows.step - 0.5 + 1e-9);
-        if (last_row >= first_row) {
+        if (std::floor(from_row + kRounding) >= to_row - kRounding) {
             const auto first = static_cast<std::uint32_t>(out.boundaries.size());
             const double zeta = 0.5 * (from + to);
-            if (!convex_rows || !tell_row(out, zeta, order)) solve_row(out, zeta, order);
+            if (!convex || !convex->tell(zeta, order)) solve_row(out, zeta, order);
             for (const Change& change : order) {
                 out.boundaries.push_back(change.boundary);
                 out.surfaces.push_back(static_cast<std::int8_t>(change.surface));
@@ -40,7 +43,7 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
             const auto count = static_cast<std::uint32_t>(out.boundaries.size()) - first;
             if (count > 0) out.bands.push_back({from, to, first, count});
         }
-        from = to;
+        from = to, from_row = to_row;
     };
     for (const KeyPoint& key : keys)
         if (key.zeta > from) close_band(key.zeta);
@@ -80,6 +83,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.surfaces.clear();
     out.curves.clear();
     out.curve_rows.clear();
+    out.visibility_lines.clear();
 
     const ImageBounds bounds = image_bounds(solid, eye, eye_from_scene);
     const bool near_plane = !bounds.in_front();
@@ -92,6 +96,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.limb_only = solid.planes.empty() && !near_plane && !endless;
     out.curves.push_back(limb_on_rows(out.solid));
     out.curve_rows.emplace_back();
+    out.visibility_lines.emplace_back(0.0);
     if (out.limb_only) {
         const RowConic& limb = out.curves[0];
         // The quadric's silhouette spans the rows between its two extrema: b +- sqrt(b^2 - a c) of the row
@@ -109,9 +114,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         return;
     }
     find_key_points(out);
-    const bool edge_on = std::any_of(out.solid.planes.begin(), out.solid.planes.begin() + out.solid.plane_count,
-                                     [](const EyePlane& plane) { return plane.at_eye == 0.0; });
-    find_bands(rows, solid.ellipsoid && !near_plane && !edge_on && set_up == SetUp::anchored, out);
+    find_bands(rows, solid.ellipsoid && !near_plane && set_up == SetUp::anchored, out);
 }
 
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {

@@ -8,6 +8,7 @@
 /// middle of every interval.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -36,6 +37,14 @@ struct EdgeLine {
 struct CurveRows {
     double zeta_from = std::numeric_limits<double>::infinity();
     double zeta_to = -std::numeric_limits<double>::infinity();
+    void add(double zeta) {
+        zeta_from = std::min(zeta_from, zeta);
+        zeta_to = std::max(zeta_to, zeta);
+    }
+    [[nodiscard]] bool may_hold(double zeta) const {
+        constexpr double kRounding = 1e-9;
+        return zeta >= zeta_from - kRounding && zeta <= zeta_to + kRounding;
+    }
 };
 
 /// Rows from zeta_from to zeta_to that show boundaries first..first+count-1 (indices into Outline::boundaries), with
@@ -54,8 +63,9 @@ struct KeyPoint {
 struct Outline {
     std::uint32_t object = 0;
     EyeSolid solid;
-    std::vector<RowConic> curves;       ///< [0] the limb, then the intersection curves of the planes that cut
-    std::vector<CurveRows> curve_rows;  ///< of each curve; not of solids without end
+    std::vector<RowConic> curves;              ///< [0] the limb, then the intersection curves of the planes that cut
+    std::vector<CurveRows> curve_rows;         ///< of each curve; not of solids without end
+    std::vector<glm::dvec3> visibility_lines;  ///< V_j of each curve's plane (Eq 12), zero for the limb
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
     std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing

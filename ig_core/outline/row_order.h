@@ -34,15 +34,14 @@ class RowOrder {
     std::array<Change, kCapacity> changes_;
 };
 
+/// Boundaries closer than this (image-plane units; a pixel is 1e-5 at the least) are one: the sliver between them is
+/// not asked.
+inline constexpr double kSliver = 1e-12;
+/// Boundaries that come out of order by more than this contradict the order.
+inline constexpr double kDisorder = 1e-11;
+
 /// Solves a row by itself, the slow, sure way: finds every boundary candidate on it and asks for the surface in the
 /// middle of every interval between two.
 void solve_row(const Outline& outline, double zeta, RowOrder& order);
-
-/// Tells a row between two key points from the edges and curves that are seen on it, for an ellipsoid whole in front
-/// of the near plane. There a row is a slice of a convex body, its nearer side a chain of faces with quadric
-/// between them: a face ends in its edges on the row, or else where its plane's chord does; and it is limb or contact
-/// line that the quadric ends at. One ray in the middle of every interval has to agree. False, with `order` undefined,
-/// where it does not or where more than one chain may be meant: solve_row then knows.
-bool tell_row(const Outline& outline, double zeta, RowOrder& order);
 
 }  // namespace quadrig

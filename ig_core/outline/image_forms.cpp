@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ig_core/geometry/quadric_line.h"
 #include "ig_core/outline/textbook_forms.h"
 
 namespace quadrig {
@@ -14,48 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Ellipsoids within this cosine of the look direction get their own image origin; further out the shear itself would
 /// be long.
 constexpr double kLeastShearCosine = 0.15;
-
-/// A plane whose equation along a line is this small beside its terms holds the line.
-constexpr double kHolds = 1e-13;
-
-/// Rounding of d'Md for unit d: the largest entry of M is about 1.
-constexpr double kFlat = 1e-14;
-
-/// Discriminant of Q along a line given by direction and moment (q x direction) about the anchor, as a bilinear form of
-/// two lines.
-double line_discriminant(const EyeSolid& s, const glm::dvec3& direction_a, const glm::dvec3& moment_a,
-                         const glm::dvec3& direction_b, const glm::dvec3& moment_b) {
-    const glm::dvec3 ma = s.m * direction_a, mb = s.m * direction_b;
-    return -value(s.adjugate, moment_a, moment_b) - s.c * glm::dot(direction_a, mb) +
-           glm::dot(s.w, direction_a) * glm::dot(s.w, direction_b) + glm::dot(ma, glm::cross(s.w, moment_b)) +
-           glm::dot(mb, glm::cross(s.w, moment_a));
-}
-
-struct Interval {
-    double from, to;
-};
-
-/// Where Q <= 0 along a line with A t^2 + 2 B t + C and discriminant D: one interval, or two when A < 0. An A of `flat`
-/// or less may be rounding.
-int inside_quadric(double a, double b, double c, double d, double flat, std::array<Interval, 2>& out) {
-    a += 0.0;  // -0 would flip the sign of an infinite root
-    if (!(d > 0.0)) {
-        // Then A and C have one sign, but along a cylinder's axis A is rounding.
-        if (a > flat || c > 0.0) return 0;
-        out[0] = {-kInfinity, kInfinity};
-        return 1;
-    }
-    const double root = std::sqrt(d);
-    const double entry = b <= 0.0 ? c / (root - b) : -(b + root) / a;
-    const double exit = b >= 0.0 ? -c / (b + root) : (root - b) / a;
-    if (a >= 0.0) {
-        out[0] = {entry, exit};
-        return 1;
-    }
-    out[0] = {-kInfinity, exit};
-    out[1] = {entry, kInfinity};
-    return 2;
-}
 
 void set_forms(EyeSolid& e) {
     // L = -[a]x' adj(M) [a]x - c M + w w' + 2 (w.a) M - (Ma) w' - w (Ma)'
@@ -210,40 +169,6 @@ bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own)
         if (at + plane.at_eye < -kTolerance * (std::abs(at) + std::abs(plane.at_eye))) return false;
     }
     return true;
-}
-
-LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
-                      int skip_b) {
-    double from = -kInfinity, to = kInfinity;
-    for (int i = 0; i < e.plane_count; ++i) {
-        if (i == skip_a || i == skip_b) continue;
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        const double slope = glm::dot(plane.normal, direction);
-        const double reach = glm::dot(plane.normal, origin), here = reach + plane.local_offset;
-        // A third plane through the line takes nothing of it but by rounding.
-        if (slope * slope <= kHolds * kHolds * glm::dot(direction, direction) &&
-            std::abs(here) <= kHolds * (std::abs(reach) + glm::dot(glm::abs(plane.normal), glm::abs(e.anchor))))
-            continue;
-        if (slope > 0.0)
-            from = std::max(from, -here / slope);
-        else if (slope < 0.0)
-            to = std::min(to, -here / slope);
-        else if (here <= 0.0)
-            return {1.0, 0.0};
-    }
-    if (!(from < to)) return {1.0, 0.0};
-    const glm::dvec3 moment = glm::cross(origin, direction);
-    std::array<Interval, 2> pieces;
-    const int count = inside_quadric(value(e.m, direction), value(e.m, origin, direction) + glm::dot(e.w, direction),
-                                     value(e.m, origin) + 2.0 * glm::dot(e.w, origin) + e.c,
-                                     line_discriminant(e, direction, moment, direction, moment),
-                                     kFlat * glm::dot(direction, direction), pieces);
-    for (int i = 0; i < count; ++i) {
-        const Interval& piece = pieces[static_cast<std::size_t>(i)];
-        const LineSegment segment{std::max(from, piece.from), std::min(to, piece.to)};
-        if (segment.from < segment.to) return segment;
-    }
-    return {1.0, 0.0};
 }
 
 int surface_at(const EyeSolid& e, double xi, double zeta) {

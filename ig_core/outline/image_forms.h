@@ -107,15 +107,6 @@ glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const Eye
 /// keeping it.
 bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
 
-/// The part of a line that lies in the solid, {origin + t direction}, origin about the anchor. Planes `skip_a`,
-/// `skip_b` (the ones the line lies in) do not count. Empty where from >= to.
-struct LineSegment {
-    double from;
-    double to;
-};
-LineSegment clip_line(const EyeSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
-                      int skip_b);
-
 /// First surface that the ray through (xi, zeta) enters, as EyePlane::surface (0 the quadric), or kNoSurface;
 /// kNearSurface is turned into kNoSurface. This is the slow, sure answer for one ray; z-bands carry it from row to row.
 int surface_at(const EyeSolid& solid, double xi, double zeta);

@@ -108,7 +108,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         out.curve_rows[0] = {out.zeta_from, out.zeta_to};
         return;
     }
-    find_boundaries(out);
+    find_boundaries(solid, eye_from_scene, out);
     if (out.direct) {
         out.zeta_from = -kInfinity, out.zeta_to = kInfinity;
         return;

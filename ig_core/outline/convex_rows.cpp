@@ -4,140 +4,137 @@
 #include <cmath>
 
 namespace quadrig {
-namespace {
-
-constexpr int kNone = -1;
-
-}  // namespace
-
-struct ConvexRows::FaceEdges {
-    int left = kNone, right = kNone;
-};
 
 struct ConvexRows::Stretch {
     double from, to;
-    Boundary left, right;
-    int plane;                   // kNone for the quadric
+    std::uint8_t face, left_edge, right_edge;
     bool bare_left, bare_right;  // nothing is seen beyond that end
 };
 
-ConvexRows::ConvexRows(const Outline& outline) : outline_(outline) {
+ConvexRows::Chord::Chord(const RowConic& conic) {
+    const double inverse = 1.0 / conic.alpha, square = inverse * inverse;
+    middle = {-conic.beta[0] * inverse, -conic.beta[1] * inverse};
+    reach2 = {conic.discriminant[0] * square, conic.discriminant[1] * square, conic.discriminant[2] * square};
+}
+
+ConvexRows::ConvexRows(const Outline& outline) : limb_chord_(outline.curves[0]), limb_(outline.solid.limb) {
     const EyeSolid& e = outline.solid;
+    std::array<std::uint8_t, kMaxPlanes> face_of;
     for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i) {
-        edge_on_ = edge_on_ || e.planes[i].at_eye == 0.0;
-        relative_depth_[i] = (-1.0 / e.planes[i].at_eye) * outline.visibility_lines[i + 1];
+        const double at_eye = e.planes[i].at_eye;
+        edge_on_ = edge_on_ || at_eye == 0.0;
+        const bool faces_eye = at_eye < 0.0;
+        face_of[i] = faces_eye ? static_cast<std::uint8_t>(facing_count_) : kNoFace;
+        Plane& plane = faces_eye ? facing_[facing_count_++] : away_[away_count_++];
+        plane.chord = Chord(outline.curves[i + 1]);
+        plane.rows = outline.curve_rows[i + 1];
+        plane.depth = (-1.0 / at_eye) * outline.visibility_lines[i + 1];
+        plane.curve = static_cast<std::uint16_t>(i + 1);
+        plane.surface = e.planes[i].surface;
     }
-}
-
-bool ConvexRows::find_edges(double zeta, std::array<FaceEdges, kMaxPlanes>& faces) const {
-    for (std::size_t i = 0; i < outline_.lines.size(); ++i) {
-        const EdgeLine& edge = outline_.lines[i];
-        if (!(zeta >= edge.zeta_from && zeta <= edge.zeta_to)) continue;
+    edges_[0] = {0, 0, {}, kNoFace, kNoFace};
+    for (const EdgeLine& edge : outline.lines) {
         // The face of plane i lies to the right of its edge with j where X_ij.x > 0, and that of j to the left.
-        const double x = edge.line.x;
-        if (x == 0.0) return false;
-        int& of_first = x > 0.0 ? faces[edge.plane].left : faces[edge.plane].right;
-        int& of_second = x > 0.0 ? faces[edge.other_plane].right : faces[edge.other_plane].left;
-        if (of_first != kNone || of_second != kNone) return false;
-        of_first = of_second = static_cast<int>(i);
+        const std::uint8_t face = face_of[edge.plane], other = face_of[edge.other_plane];
+        const bool to_the_right = edge.line.x > 0.0;
+        const double inverse = -1.0 / edge.line.x;
+        edges_[edge_count_++] = {edge.zeta_from,
+                                 edge.zeta_to,
+                                 {edge.line.y * inverse, edge.line.z * inverse},
+                                 to_the_right ? other : face,
+                                 to_the_right ? face : other};
     }
-    return true;
 }
 
-bool ConvexRows::shows(int plane, double xi, double zeta) const {
-    const EyeSolid& e = outline_.solid;
-    const glm::dvec3 d(xi, 1.0, zeta);
-    const double limb = value(e.limb, d);
+bool ConvexRows::shows(int face, double xi, double zeta) const {
+    const double limb = value(limb_, glm::dvec3(xi, 1.0, zeta));
     if (!(limb > 0.0)) return false;
     const double quadric = std::sqrt(limb);
-    double entry = quadric, exit = -quadric, own = quadric;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const double at = glm::dot(relative_depth_[static_cast<std::size_t>(i)], d);
-        const bool faces_eye = e.planes[static_cast<std::size_t>(i)].at_eye < 0.0;
-        entry = faces_eye ? std::min(entry, at) : entry;
-        exit = faces_eye ? exit : std::max(exit, at);
-        own = i == plane ? at : own;
-    }
+    double entry = quadric, exit = -quadric;
+    for (std::size_t i = 0; i < facing_count_; ++i) entry = std::min(entry, facing_[i].depth_at(xi, zeta));
+    for (std::size_t i = 0; i < away_count_; ++i) exit = std::max(exit, away_[i].depth_at(xi, zeta));
+    const double own = face == kQuadric ? quadric : facing_[static_cast<std::size_t>(face)].depth_at(xi, zeta);
     return own <= entry && own > exit;
 }
 
 bool ConvexRows::tell(double zeta, RowOrder& order) const {
     using Kind = Boundary::Kind;
-    const EyeSolid& e = outline_.solid;
     order.clear();
-    if (edge_on_ || misses_row(outline_.curves[0], zeta)) return false;
-    std::array<FaceEdges, kMaxPlanes> edges;
-    if (!find_edges(zeta, edges)) return false;
-
-    const RowRoots limb = roots_on_row(outline_.curves[0], zeta);
-    Stretch quadric{limb.rising, limb.falling, {Kind::rising, 0}, {Kind::falling, 0}, kNone, true, true};
-    std::array<Stretch, kMaxPlanes> faces;  // by rising `from`
-    std::size_t count = 0;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const auto place = static_cast<std::size_t>(i);
-        const auto curve = static_cast<std::uint16_t>(i + 1);
-        if (!outline_.curve_rows[curve].may_hold(zeta)) continue;
-        const bool faces_eye = e.planes[place].at_eye < 0.0;
-        const FaceEdges& ends = edges[place];
-        RowRoots roots{};
-        if (!faces_eye || ends.left == kNone || ends.right == kNone) {
-            if (misses_row(outline_.curves[curve], zeta)) {
-                if (faces_eye) return false;
-                continue;
-            }
-            roots = roots_on_row(outline_.curves[curve], zeta);
-        }
-        const auto keeps_limb = [&](double xi) {
-            const bool below_middle = glm::dot(relative_depth_[place], glm::dvec3(xi, 1.0, zeta)) < 0.0;
-            return faces_eye != below_middle;
-        };
-        // The curve of an ellipsoid is an ellipse, its form negative within: `falling` is the left end.
-        if (!faces_eye) {
-            if (roots.falling > quadric.from && !keeps_limb(roots.falling))
-                quadric.from = roots.falling, quadric.left = {Kind::falling, curve};
-            if (roots.rising < quadric.to && !keeps_limb(roots.rising))
-                quadric.to = roots.rising, quadric.right = {Kind::rising, curve};
-            continue;
-        }
-        const auto end_face = [&](int edge, double root, Kind kind, double& xi, Boundary& boundary, bool& bare) {
-            if (edge == kNone) {
-                xi = root, boundary = {kind, curve}, bare = !keeps_limb(root);
-                return;
-            }
-            const EdgeLine& line = outline_.lines[static_cast<std::size_t>(edge)];
-            const std::size_t other = line.plane == i ? line.other_plane : line.plane;
-            xi = line.on_row(zeta), boundary = {Kind::line, static_cast<std::uint16_t>(edge)};
-            bare = e.planes[other].at_eye > 0.0;
-        };
-        Stretch face{0, 0, {}, {}, i, false, false};
-        end_face(ends.left, roots.falling, Kind::falling, face.from, face.left, face.bare_left);
-        end_face(ends.right, roots.rising, Kind::rising, face.to, face.right, face.bare_right);
-        std::size_t at = count++;
-        for (; at > 0 && faces[at - 1].from > face.from; --at) faces[at] = faces[at - 1];
-        faces[at] = face;
+    bool doubtful = edge_on_;
+    std::array<std::uint8_t, kMaxPlanes + 1> left_edges{}, right_edges{};
+    for (std::size_t i = 1; i < edge_count_; ++i) {
+        const Edge& edge = edges_[i];
+        const bool on_row = zeta >= edge.zeta_from && zeta <= edge.zeta_to;
+        const std::size_t right = on_row ? edge.right_face : kNoFace, left = on_row ? edge.left_face : kNoFace;
+        doubtful |= (right != kNoFace && left_edges[right] != 0) || (left != kNoFace && right_edges[left] != 0);
+        left_edges[right] = right_edges[left] = static_cast<std::uint8_t>(i);
     }
 
-    const auto show = [&](const Boundary& boundary, double from, double to, int plane) {
-        if (!(to - from > kSliver)) return to - from > -kDisorder;
-        if (!shows(plane, 0.5 * (from + to), zeta)) return false;
-        const int surface = plane == kNone ? 0 : e.planes[static_cast<std::size_t>(plane)].surface;
+    std::array<Stretch, kMaxPlanes> faces;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < facing_count_; ++i) {
+        const Plane& plane = facing_[i];
+        const double reach2 = plane.chord.reach2_at(zeta), middle = plane.chord.middle_at(zeta);
+        const double reach = std::sqrt(std::max(0.0, reach2));
+        const Edge &left = edges_[left_edges[i]], &right = edges_[right_edges[i]];
+        const bool at_left = left_edges[i] != 0, at_right = right_edges[i] != 0;
+        Stretch& face = faces[count];
+        face.from = at_left ? left.xi_at(zeta) : middle - reach;
+        face.to = at_right ? right.xi_at(zeta) : middle + reach;
+        face.face = static_cast<std::uint8_t>(i), face.left_edge = left_edges[i], face.right_edge = right_edges[i];
+        face.bare_left = at_left ? left.left_face == kNoFace : plane.depth_at(face.from, zeta) < 0.0;
+        face.bare_right = at_right ? right.right_face == kNoFace : plane.depth_at(face.to, zeta) < 0.0;
+        const bool seen = plane.rows.may_hold(zeta);
+        doubtful |= seen && !(at_left && at_right) && !(reach2 >= 0.0);
+        count += seen ? 1 : 0;
+    }
+    if (doubtful) return false;
+    for (std::size_t i = 1; i < count; ++i)
+        for (std::size_t at = i; at > 0 && faces[at - 1].from > faces[at].from; --at)
+            std::swap(faces[at - 1], faces[at]);
+
+    const double middle = limb_chord_.middle_at(zeta), reach = std::sqrt(std::max(0.0, limb_chord_.reach2_at(zeta)));
+    double from = middle - reach, quadric_to = middle + reach;
+    std::uint16_t left_curve = 0, right_curve = 0;
+    for (std::size_t i = 0; i < away_count_; ++i) {
+        const Plane& plane = away_[i];
+        const double at = plane.chord.middle_at(zeta), reach2 = plane.chord.reach2_at(zeta);
+        const double half = std::sqrt(std::max(0.0, reach2)), left = at - half, right = at + half;
+        const bool on_row = plane.rows.may_hold(zeta) && reach2 > 0.0;
+        const bool ends_left = on_row && left > from && plane.depth_at(left, zeta) >= 0.0;
+        const bool ends_right = on_row && right < quadric_to && plane.depth_at(right, zeta) >= 0.0;
+        from = ends_left ? left : from, left_curve = ends_left ? plane.curve : left_curve;
+        quadric_to = ends_right ? right : quadric_to, right_curve = ends_right ? plane.curve : right_curve;
+    }
+
+    // The limb's form is positive, a plane's negative within.
+    const Boundary quadric_left{left_curve == 0 ? Kind::rising : Kind::falling, left_curve};
+    const Boundary quadric_right{right_curve == 0 ? Kind::falling : Kind::rising, right_curve};
+    const auto boundary_of = [](std::uint8_t edge, Kind kind, std::uint16_t curve) {
+        return edge != 0 ? Boundary{Kind::line, static_cast<std::uint16_t>(edge - 1)} : Boundary{kind, curve};
+    };
+    const auto show = [&](const Boundary& boundary, double until, int face) {
+        if (!(until - from > kSliver)) return until - from > -kDisorder;
+        if (!shows(face, 0.5 * (from + until), zeta)) return false;
+        const int surface = face == kQuadric ? 0 : facing_[static_cast<std::size_t>(face)].surface;
         if (order.last_surface() != surface) order.add({boundary, from, surface});
         return true;
     };
-    double from = quadric.from;
-    Boundary boundary = quadric.left;
+    Boundary boundary = quadric_left;
+    std::uint8_t edge = 0;  // that the last face ended in
     for (std::size_t i = 0; i < count; ++i) {
         const Stretch& face = faces[i];
-        if ((face.bare_left && i > 0) || (face.bare_right && i + 1 < count)) return false;
-        const bool after_edge = boundary.kind == Kind::line, at_edge = face.left.kind == Kind::line;
-        if (!face.bare_left && (after_edge != at_edge || (at_edge && boundary.index != face.left.index))) return false;
-        if (!face.bare_left && !at_edge && !show(boundary, from, face.from, kNone)) return false;
-        if (!show(face.left, face.from, face.to, face.plane)) return false;
-        from = face.to, boundary = face.right;
+        if (face.bare_left ? i > 0 : edge != face.left_edge) return false;
+        if (face.bare_right && i + 1 < count) return false;
+        if (!face.bare_left && edge == 0 && !show(boundary, face.from, kQuadric)) return false;
+        from = face.from;
+        const std::uint16_t curve = facing_[face.face].curve;
+        if (!show(boundary_of(face.left_edge, Kind::falling, curve), face.to, face.face)) return false;
+        from = face.to, edge = face.right_edge, boundary = boundary_of(edge, Kind::rising, curve);
     }
     if (count == 0 || !faces[count - 1].bare_right) {
-        if (boundary.kind == Kind::line || !show(boundary, from, quadric.to, kNone)) return false;
-        from = quadric.to, boundary = quadric.right;
+        if (edge != 0 || !show(boundary, quadric_to, kQuadric)) return false;
+        from = quadric_to, boundary = quadric_right;
     }
     if (order.begin() == order.end()) return false;
     order.add({boundary, from, kNoSurface});

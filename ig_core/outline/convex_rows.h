@@ -5,6 +5,8 @@
 /// seen is the slice's upper side: a chain of faces with quadric between them. A face ends in its edges on the row, or
 /// else where its plane's chord does; beyond that the limb is kept or it is not, and a plane that faces away can end
 /// the quadric before the limb does.
+///
+/// Objects differ and no branch is foreseen: the loops choose values rather than ways.
 #pragma once
 
 #include <array>
@@ -15,7 +17,7 @@ namespace quadrig {
 
 class ConvexRows {
   public:
-    /// Expects all boundaries and the rows of each curve in place. `outline` has to stay.
+    /// Expects all boundaries and the rows of each curve in place. Of the outline nothing is kept.
     explicit ConvexRows(const Outline& outline);
 
     /// Tells a row between two key points. False, with `order` undefined, where one ray in the middle of an interval
@@ -23,17 +25,43 @@ class ConvexRows {
     bool tell(double zeta, RowOrder& order) const;
 
   private:
-    /// The edges in which a plane's face ends on a row, as indices into Outline::lines.
-    struct FaceEdges;
-    /// Part of a row, between two boundaries.
+    /// Where a conic holds a row: middle -+ the root of reach2.
+    struct Chord {
+        explicit Chord(const RowConic& conic);
+        Chord() = default;
+        std::array<double, 2> middle;
+        std::array<double, 3> reach2;
+        [[nodiscard]] double middle_at(double zeta) const { return middle[0] + zeta * middle[1]; }
+        [[nodiscard]] double reach2_at(double zeta) const { return reach2[0] + zeta * (reach2[1] + zeta * reach2[2]); }
+    };
+    struct Plane {
+        Chord chord;
+        CurveRows rows;
+        glm::dvec3 depth;  // W
+        std::uint16_t curve;
+        int surface;
+        [[nodiscard]] double depth_at(double xi, double zeta) const { return depth.x * xi + depth.y + depth.z * zeta; }
+    };
+    using Planes = std::array<Plane, kMaxPlanes>;
+    struct Edge {
+        double zeta_from, zeta_to;
+        std::array<double, 2> xi;
+        std::uint8_t left_face, right_face;  // indices into facing_, or kNoFace
+        [[nodiscard]] double xi_at(double zeta) const { return xi[0] + zeta * xi[1]; }
+    };
+    /// The part of a row on which a face is seen.
     struct Stretch;
 
-    bool find_edges(double zeta, std::array<FaceEdges, kMaxPlanes>& faces) const;
-    [[nodiscard]] bool shows(int surface, double xi, double zeta) const;
+    static constexpr std::uint8_t kNoFace = kMaxPlanes;
+    static constexpr int kQuadric = -1;
+    [[nodiscard]] bool shows(int face, double xi, double zeta) const;
 
-    const Outline& outline_;
-    bool edge_on_ = false;                               // a plane holds the eye: W has no end
-    std::array<glm::dvec3, kMaxPlanes> relative_depth_;  // W by plane
+    Chord limb_chord_;
+    Sym3 limb_;
+    std::size_t facing_count_ = 0, away_count_ = 0, edge_count_ = 1;
+    Planes facing_, away_;
+    std::array<Edge, 1 + kMaxPlanes*(kMaxPlanes - 1) / 2> edges_;  // [0] stands for none
+    bool edge_on_ = false;                                         // a plane holds the eye: W has no end
 };
 
 }  // namespace quadrig

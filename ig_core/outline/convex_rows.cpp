@@ -4,6 +4,19 @@
 #include <cmath>
 
 namespace quadrig {
+namespace {
+
+/// `which ? a : b` by an index: compilers make a branch of the other.
+template <class Value>
+Value choose(bool which, const Value& a, const Value& b) {
+    const std::array<Value, 2> both{b, a};
+    return both[which ? 1 : 0];
+}
+
+/// Whether from <= x <= to, as one comparison.
+bool within(double x, double from, double to) { return std::min(x - from, to - x) >= 0.0; }
+
+}  // namespace
 
 struct ConvexRows::Stretch {
     double from, to;
@@ -60,32 +73,38 @@ bool ConvexRows::shows(int face, double xi, double zeta) const {
 bool ConvexRows::tell(double zeta, RowOrder& order) const {
     using Kind = Boundary::Kind;
     order.clear();
-    bool doubtful = edge_on_;
+    const double limb_reach2 = limb_chord_.reach2_at(zeta);
+    if (limb_reach2 < 0.0) return true;
+    unsigned taken = 0;
     std::array<std::uint8_t, kMaxPlanes + 1> left_edges{}, right_edges{};
     for (std::size_t i = 1; i < edge_count_; ++i) {
         const Edge& edge = edges_[i];
-        const bool on_row = zeta >= edge.zeta_from && zeta <= edge.zeta_to;
-        const std::size_t right = on_row ? edge.right_face : kNoFace, left = on_row ? edge.left_face : kNoFace;
-        doubtful |= (right != kNoFace && left_edges[right] != 0) || (left != kNoFace && right_edges[left] != 0);
+        const bool on_row = within(zeta, edge.zeta_from, edge.zeta_to);
+        const std::size_t right = choose(on_row, edge.right_face, kNoFace);
+        const std::size_t left = choose(on_row, edge.left_face, kNoFace);
+        left_edges[kNoFace] = right_edges[kNoFace] = 0;
+        taken |= left_edges[right] | right_edges[left];
         left_edges[right] = right_edges[left] = static_cast<std::uint8_t>(i);
     }
+
+    bool doubtful = edge_on_ || taken != 0;
 
     std::array<Stretch, kMaxPlanes> faces;
     std::size_t count = 0;
     for (std::size_t i = 0; i < facing_count_; ++i) {
         const Plane& plane = facing_[i];
         const double reach2 = plane.chord.reach2_at(zeta), middle = plane.chord.middle_at(zeta);
-        const double reach = std::sqrt(std::max(0.0, reach2));
+        const double reach = std::sqrt(std::abs(reach2));
         const Edge &left = edges_[left_edges[i]], &right = edges_[right_edges[i]];
         const bool at_left = left_edges[i] != 0, at_right = right_edges[i] != 0;
         Stretch& face = faces[count];
-        face.from = at_left ? left.xi_at(zeta) : middle - reach;
-        face.to = at_right ? right.xi_at(zeta) : middle + reach;
+        face.from = choose(at_left, left.xi_at(zeta), middle - reach);
+        face.to = choose(at_right, right.xi_at(zeta), middle + reach);
         face.face = static_cast<std::uint8_t>(i), face.left_edge = left_edges[i], face.right_edge = right_edges[i];
-        face.bare_left = at_left ? left.left_face == kNoFace : plane.depth_at(face.from, zeta) < 0.0;
-        face.bare_right = at_right ? right.right_face == kNoFace : plane.depth_at(face.to, zeta) < 0.0;
+        face.bare_left = choose(at_left, left.left_face == kNoFace, plane.depth_at(face.from, zeta) < 0.0);
+        face.bare_right = choose(at_right, right.right_face == kNoFace, plane.depth_at(face.to, zeta) < 0.0);
         const bool seen = plane.rows.may_hold(zeta);
-        doubtful |= seen && !(at_left && at_right) && !(reach2 >= 0.0);
+        doubtful |= choose(seen, choose(at_left, !at_right, true), false) && !(reach2 >= 0.0);
         count += seen ? 1 : 0;
     }
     if (doubtful) return false;
@@ -93,13 +112,13 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         for (std::size_t at = i; at > 0 && faces[at - 1].from > faces[at].from; --at)
             std::swap(faces[at - 1], faces[at]);
 
-    const double middle = limb_chord_.middle_at(zeta), reach = std::sqrt(std::max(0.0, limb_chord_.reach2_at(zeta)));
-    double from = middle - reach, quadric_to = middle + reach;
+    const double limb_middle = limb_chord_.middle_at(zeta), limb_reach = std::sqrt(limb_reach2);
+    double from = limb_middle - limb_reach, quadric_to = limb_middle + limb_reach;
     std::uint16_t left_curve = 0, right_curve = 0;
     for (std::size_t i = 0; i < away_count_; ++i) {
         const Plane& plane = away_[i];
         const double at = plane.chord.middle_at(zeta), reach2 = plane.chord.reach2_at(zeta);
-        const double half = std::sqrt(std::max(0.0, reach2)), left = at - half, right = at + half;
+        const double half = std::sqrt(std::abs(reach2)), left = at - half, right = at + half;
         const bool on_row = plane.rows.may_hold(zeta) && reach2 > 0.0;
         const bool ends_left = on_row && left > from && plane.depth_at(left, zeta) >= 0.0;
         const bool ends_right = on_row && right < quadric_to && plane.depth_at(right, zeta) >= 0.0;

@@ -53,8 +53,8 @@ void add_curve_extrema(Outline& out, std::size_t index, const EyePlane& plane) {
         const double zeta = zetas[static_cast<std::size_t>(i)], xi = -curve.beta_at(zeta) / curve.alpha;
         const glm::dvec3 d(xi, 1.0, zeta);
         const double k = -plane.at_eye / glm::dot(plane.normal, d);
-        if (!(std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, &plane))) continue;
-        if (plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d))
+        if (!(std::isfinite(k) && k > 0.0)) continue;
+        if ((plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d)) && kept_by_planes(out.solid, k * d, &plane))
             add_key_point(out, {xi, zeta, KeyPoint::Kind::curve_extremum}, index, index);
     }
 }

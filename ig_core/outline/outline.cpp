@@ -14,6 +14,29 @@ namespace quadrig {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Heights of the key points, rising.
+void sort_heights(const std::vector<KeyPoint>& keys, std::vector<double>& heights) {
+    heights.resize(keys.size());
+    constexpr std::size_t kFew = 32;
+    if (keys.size() > kFew) {
+        std::transform(keys.begin(), keys.end(), heights.begin(), [](const KeyPoint& key) { return key.zeta; });
+        std::sort(heights.begin(), heights.end());
+        return;
+    }
+    // Faster for a few: counting those below each takes no branch that cannot be foreseen.
+    std::array<unsigned, kFew> below;
+    std::fill_n(below.begin(), keys.size(), 0U);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        unsigned count = 0;
+        for (std::size_t j = 0; j < i; ++j) {
+            const unsigned is_below = keys[j].zeta <= keys[i].zeta ? 1 : 0;
+            count += is_below, below[j] += 1 - is_below;
+        }
+        below[i] = count;
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) heights[below[i]] = keys[i].zeta;
+}
+
 /// `convex_rows`: the solid is an ellipsoid whole in front of the near plane, by its anchored forms.
 void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
     std::optional<ConvexRows> convex;
@@ -21,8 +44,6 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
     RowOrder order;
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
-    auto& keys = out.key_points;
-    std::sort(keys.begin(), keys.end(), [](const KeyPoint& a, const KeyPoint& b) { return a.zeta < b.zeta; });
     const double rows_per_unit = 1.0 / rows.step;
     const auto row_at = [&](double zeta) { return (z_high - zeta) * rows_per_unit - 0.5; };
     double from = z_low, from_row = row_at(from);
@@ -32,7 +53,8 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
         constexpr double kRounding = 1e-9;
         const double to_row = row_at(to);
         // A band without a row of the grid needs no answer.
-        if (std::floor(from_row + kRounding) >= to_row - kRounding) {
+        const int last_row = static_cast<int>(from_row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
+        if (last_row >= to_row - kRounding) {
             const auto first = static_cast<std::uint32_t>(out.boundaries.size());
             const double zeta = 0.5 * (from + to);
             if (!convex || !convex->tell(zeta, order)) solve_row(out, zeta, order);
@@ -45,8 +67,9 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
         }
         from = to, from_row = to_row;
     };
-    for (const KeyPoint& key : keys)
-        if (key.zeta > from) close_band(key.zeta);
+    sort_heights(out.key_points, out.heights);
+    for (const double height : out.heights)
+        if (height > from) close_band(height);
     close_band(kInfinity);
     if (out.bands.empty()) {
         out.zeta_from = 1.0, out.zeta_to = -1.0;

@@ -68,6 +68,7 @@ struct Outline {
     std::vector<glm::dvec3> visibility_lines;  ///< V_j of each curve's plane (Eq 12), zero for the limb
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
+    std::vector<double> heights;  ///< of the key points, rising: where z-bands meet
     std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
     std::vector<Boundary> boundaries;
     std::vector<std::int8_t> surfaces;

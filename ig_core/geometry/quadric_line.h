@@ -13,15 +13,25 @@ namespace quadrig {
 /// Rounding of d'Md for unit d where the largest entry of M is about 1.
 inline constexpr double kFlat = 1e-14;
 
-/// Discriminant of Q along a line given by direction and moment (q x direction) about the anchor, as a bilinear form of
-/// two lines.
+/// A straight line by its direction and moment (q x direction).
+struct MomentLine {
+    glm::dvec3 direction, moment;
+};
+
+/// Discriminant of Q along a line, and as a bilinear form of two lines a and b: {a a, a b, b b}.
 template <class Quadric>
-double line_discriminant(const Quadric& s, const glm::dvec3& direction_a, const glm::dvec3& moment_a,
-                         const glm::dvec3& direction_b, const glm::dvec3& moment_b) {
-    const glm::dvec3 ma = s.m * direction_a, mb = s.m * direction_b;
-    return -value(s.adjugate, moment_a, moment_b) - s.c * glm::dot(direction_a, mb) +
-           glm::dot(s.w, direction_a) * glm::dot(s.w, direction_b) + glm::dot(ma, glm::cross(s.w, moment_b)) +
-           glm::dot(mb, glm::cross(s.w, moment_a));
+std::array<double, 3> line_discriminants(const Quadric& q, const MomentLine& a, const MomentLine& b) {
+    const glm::dvec3 ma = q.m * a.direction, mb = q.m * b.direction;
+    const glm::dvec3 ta = q.adjugate * a.moment, tb = q.adjugate * b.moment;
+    const glm::dvec3 wa = glm::cross(q.w, a.moment), wb = glm::cross(q.w, b.moment);
+    const double da = glm::dot(q.w, a.direction), db = glm::dot(q.w, b.direction);
+    return {-glm::dot(a.moment, ta) - q.c * glm::dot(a.direction, ma) + da * da + glm::dot(ma, wa) + glm::dot(ma, wa),
+            -glm::dot(a.moment, tb) - q.c * glm::dot(a.direction, mb) + da * db + glm::dot(ma, wb) + glm::dot(mb, wa),
+            -glm::dot(b.moment, tb) - q.c * glm::dot(b.direction, mb) + db * db + glm::dot(mb, wb) + glm::dot(mb, wb)};
+}
+template <class Quadric>
+double line_discriminant(const Quadric& q, const MomentLine& line) {
+    return line_discriminants(q, line, line)[0];
 }
 
 struct Interval {

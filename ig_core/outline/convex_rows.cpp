@@ -136,7 +136,7 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         if (!(until - from > kSliver)) return until - from > -kDisorder;
         if (!shows(face, 0.5 * (from + until), zeta)) return false;
         const int surface = face == kQuadric ? 0 : facing_[static_cast<std::size_t>(face)].surface;
-        if (order.last_surface() != surface) order.add({boundary, from, surface});
+        if (order.last_surface() != surface) order.add(boundary, surface);
         return true;
     };
     Boundary boundary = quadric_left;
@@ -153,10 +153,10 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
     }
     if (count == 0 || !faces[count - 1].bare_right) {
         if (edge != 0 || !show(boundary, quadric_to, kQuadric)) return false;
-        from = quadric_to, boundary = quadric_right;
+        boundary = quadric_right;
     }
     if (order.begin() == order.end()) return false;
-    order.add({boundary, from, kNoSurface});
+    order.add(boundary, kNoSurface);
     return true;
 }
 

@@ -124,21 +124,23 @@ RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
     const glm::dvec3 yx(along.y + along.z - bl, -a.y * n.x, -a.z * n.x);
     const glm::dvec3 yy(-a.x * n.y, along.x + along.z - bl, -a.z * n.y);
     const glm::dvec3 yz(-a.x * n.z, -a.y * n.z, along.x + along.y - bl);
-    const auto entry = [&](const glm::dvec3& p, double hp, const glm::dvec3& q, double hq) {
-        return value(e.m, p, q) + hp * glm::dot(e.w, q) + hq * glm::dot(e.w, p) + e.c * hp * hq;
+    const glm::dvec3 mx = e.m * yx, my = e.m * yy, mz = e.m * yz;
+    const double wx = glm::dot(e.w, yx), wy = glm::dot(e.w, yy), wz = glm::dot(e.w, yz);
+    const auto entry = [&](const glm::dvec3& p, double hp, double wp, const glm::dvec3& mq, double hq, double wq) {
+        return glm::dot(p, mq) + hp * wq + hq * wp + e.c * hp * hq;
     };
     RowConic conic;
-    conic.alpha = entry(yx, n.x, yx, n.x);
-    conic.beta = {entry(yx, n.x, yy, n.y), entry(yx, n.x, yz, n.z)};
-    conic.gamma = {entry(yy, n.y, yy, n.y), 2.0 * entry(yy, n.y, yz, n.z), entry(yz, n.z, yz, n.z)};
+    conic.alpha = entry(yx, n.x, wx, mx, n.x, wx);
+    conic.beta = {entry(yx, n.x, wx, my, n.y, wy), entry(yx, n.x, wx, mz, n.z, wz)};
+    conic.gamma = {entry(yy, n.y, wy, my, n.y, wy), 2.0 * entry(yy, n.y, wy, mz, n.z, wz),
+                   entry(yz, n.z, wz, mz, n.z, wz)};
     // Planes l(zeta) = (0, -zeta, 1) through the eye and the row cut plane j in lines: direction n x l, moment P(a) l -
     // (l.a) n.
     const glm::dvec3 l0(0, 0, 1), l1(0, -1, 0);
-    const glm::dvec3 u0 = glm::cross(n, l0), u1 = glm::cross(n, l1);
-    const glm::dvec3 m0 = bl * l0 - a.z * n, m1 = bl * l1 + a.y * n;
     const double b2 = plane.at_eye * plane.at_eye;
-    conic.discriminant = {b2 * line_discriminant(e, u0, m0, u0, m0), 2.0 * b2 * line_discriminant(e, u0, m0, u1, m1),
-                          b2 * line_discriminant(e, u1, m1, u1, m1)};
+    const auto [d0, d1, d2] =
+        line_discriminants(e, {glm::cross(n, l0), bl * l0 - a.z * n}, {glm::cross(n, l1), bl * l1 + a.y * n});
+    conic.discriminant = {b2 * d0, 2.0 * b2 * d1, b2 * d2};
     return conic;
 }
 

@@ -55,14 +55,11 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
         // A band without a row of the grid needs no answer.
         const int last_row = static_cast<int>(from_row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
         if (last_row >= to_row - kRounding) {
-            const auto first = static_cast<std::uint32_t>(out.boundaries.size());
+            const auto first = static_cast<std::uint32_t>(out.changes.size());
             const double zeta = 0.5 * (from + to);
             if (!convex || !convex->tell(zeta, order)) solve_row(out, zeta, order);
-            for (const Change& change : order) {
-                out.boundaries.push_back(change.boundary);
-                out.surfaces.push_back(static_cast<std::int8_t>(change.surface));
-            }
-            const auto count = static_cast<std::uint32_t>(out.boundaries.size()) - first;
+            out.changes.insert(out.changes.end(), order.begin(), order.end());
+            const auto count = static_cast<std::uint32_t>(out.changes.size()) - first;
             if (count > 0) out.bands.push_back({from, to, first, count});
         }
         from = to, from_row = to_row;
@@ -102,8 +99,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.lines.clear();
     out.key_points.clear();
     out.bands.clear();
-    out.boundaries.clear();
-    out.surfaces.clear();
+    out.changes.clear();
     out.curves.clear();
     out.curve_rows.clear();
     out.visibility_lines.clear();
@@ -144,9 +140,10 @@ int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {
     int count = 0;
     bool open = false;
     RowOrder order;
-    solve_row(outline, z - outline.solid.z0, order);
+    const double zeta = z - outline.solid.z0;
+    solve_row(outline, zeta, order);
     for (const Change& change : order) {
-        const double x = outline.solid.x0 + change.xi;
+        const double x = outline.solid.x0 + intercept(outline, change.boundary, zeta);
         if (open) {
             cuts[count].to = x;
             ++count;
@@ -191,14 +188,14 @@ std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts) {
     double left = -kInfinity;
     int surface = kNoSurface;
     for (std::uint32_t i = band->first; i < band->first + band->count; ++i) {
-        double xi = intercept(outline, outline.boundaries[i], zeta);
+        double xi = intercept(outline, outline.changes[i].boundary, zeta);
         if (!(xi >= left)) {
             if (!(xi >= left - kDisorder)) return std::nullopt;
             xi = left;
         }
         if (surface != kNoSurface && xi > left && count < kMaxCuts) cuts[count++] = {x0 + left, x0 + xi, surface};
         left = xi;
-        surface = outline.surfaces[i];
+        surface = outline.changes[i].surface;
     }
     return count;
 }

@@ -25,6 +25,12 @@ struct Boundary {
     std::uint16_t index;  ///< into Outline::curves or Outline::lines
 };
 
+/// A place on a row where the visible surface changes.
+struct Change {
+    Boundary boundary;
+    std::int8_t surface;  ///< to its right
+};
+
 /// An edge: the image of the line in which two bounding planes meet, over the part that lies on the object.
 struct EdgeLine {
     glm::dvec3 line{0.0};  ///< X_ij of Eq 14
@@ -47,8 +53,8 @@ struct CurveRows {
     }
 };
 
-/// Rows from zeta_from to zeta_to that show boundaries first..first+count-1 (indices into Outline::boundaries), with
-/// Outline::surfaces[first + i] to the right of boundary i.
+/// Rows from zeta_from to zeta_to that show changes first..first+count-1 (indices into Outline::changes), from left to
+/// right.
 struct ZBand {
     double zeta_from = 0, zeta_to = 0;
     std::uint32_t first = 0, count = 0;
@@ -69,9 +75,8 @@ struct Outline {
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
     std::vector<double> heights;  ///< of the key points, rising: where z-bands meet
-    std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
-    std::vector<Boundary> boundaries;
-    std::vector<std::int8_t> surfaces;
+    std::vector<ZBand> bands;     ///< by rising zeta; what is in none of them shows nothing
+    std::vector<Change> changes;
     bool limb_only = false;             ///< nothing but the limb: one band, one surface
     bool direct = false;                ///< every row is solved by itself: solids without end
     double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing

@@ -67,7 +67,7 @@ void solve_row(const Outline& outline, double zeta, RowOrder& order) {
     for (std::size_t i = 0; i <= count; ++i) {
         const double right = i < count ? candidates[i].xi : kInfinity;
         const bool outside = (i == 0 || i == count) && !outline.direct;  // of a bounded solid: nothing is there
-        if (outside && surface != kNoSurface) order.add({left_boundary, left, surface = kNoSurface});
+        if (outside && surface != kNoSurface) order.add(left_boundary, surface = kNoSurface);
         if (!outside && right - left > kSliver) {
             double middle = 0.5 * (left + right);
             if (!std::isfinite(left))
@@ -75,7 +75,7 @@ void solve_row(const Outline& outline, double zeta, RowOrder& order) {
             else if (!std::isfinite(right))
                 middle = left + 1.0 + std::abs(left);
             const int here = surface_at(outline.solid, middle, zeta);
-            if (here != surface) order.add({left_boundary, left, here});
+            if (here != surface) order.add(left_boundary, here);
             surface = here;
         }
         if (i < count) {
@@ -83,7 +83,7 @@ void solve_row(const Outline& outline, double zeta, RowOrder& order) {
             left_boundary = candidates[i].boundary;
         }
     }
-    if (surface != kNoSurface) order.add({{Boundary::Kind::right_end, 0}, kInfinity, kNoSurface});
+    if (surface != kNoSurface) order.add({Boundary::Kind::right_end, 0}, kNoSurface);
 }
 
 }  // namespace quadrig

@@ -7,13 +7,6 @@
 
 namespace quadrig {
 
-/// A place on a row where the visible surface changes.
-struct Change {
-    Boundary boundary;
-    double xi;
-    int surface;  ///< to its right
-};
-
 /// From left to right; the last one's surface is kNoSurface.
 class RowOrder {
   public:
@@ -22,8 +15,8 @@ class RowOrder {
 
     void clear() { count_ = 0; }
     /// What comes on top of kCapacity is left out.
-    void add(const Change& change) {
-        if (count_ < kCapacity) changes_[count_++] = change;
+    void add(const Boundary& boundary, int surface) {
+        if (count_ < kCapacity) changes_[count_++] = {boundary, static_cast<std::int8_t>(surface)};
     }
     [[nodiscard]] int last_surface() const { return count_ > 0 ? changes_[count_ - 1].surface : kNoSurface; }
     [[nodiscard]] const Change* begin() const { return changes_.data(); }

@@ -55,7 +55,7 @@ std::optional<SolidEdge> edge_between(const Solid& solid, std::span<const SolidP
     const int count =
         inside_quadric(value(solid.m, direction), value(solid.m, origin, direction) + glm::dot(solid.w, direction),
                        value(solid.m, origin) + 2.0 * glm::dot(solid.w, origin) + solid.c,
-                       line_discriminant(solid, direction, moment, direction, moment), kFlat * length2, pieces);
+                       line_discriminant(solid, {direction, moment}), kFlat * length2, pieces);
     for (int n = 0; n < count; ++n) {
         const Interval& piece = pieces[static_cast<std::size_t>(n)];
         const double from = std::max(kept.from, piece.from), to = std::min(kept.to, piece.to);

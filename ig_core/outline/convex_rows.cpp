@@ -40,7 +40,8 @@ ConvexRows::ConvexRows(const Outline& outline) : limb_chord_(outline.curves[0]),
         face_of[i] = faces_eye ? static_cast<std::uint8_t>(facing_count_) : kNoFace;
         Plane& plane = faces_eye ? facing_[facing_count_++] : away_[away_count_++];
         plane.chord = Chord(outline.curves[i + 1]);
-        plane.rows = outline.curve_rows[i + 1];
+        plane.zeta_from = outline.curve_rows[i + 1].zeta_from - CurveRows::kRounding;
+        plane.zeta_to = outline.curve_rows[i + 1].zeta_to + CurveRows::kRounding;
         plane.depth = (-1.0 / at_eye) * outline.visibility_lines[i + 1];
         plane.curve = static_cast<std::uint16_t>(i + 1);
         plane.surface = e.planes[i].surface;
@@ -103,7 +104,7 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         face.face = static_cast<std::uint8_t>(i), face.left_edge = left_edges[i], face.right_edge = right_edges[i];
         face.bare_left = choose(at_left, left.left_face == kNoFace, plane.depth_at(face.from, zeta) < 0.0);
         face.bare_right = choose(at_right, right.right_face == kNoFace, plane.depth_at(face.to, zeta) < 0.0);
-        const bool seen = plane.rows.may_hold(zeta);
+        const bool seen = within(zeta, plane.zeta_from, plane.zeta_to);
         doubtful |= choose(seen, choose(at_left, !at_right, true), false) && !(reach2 >= 0.0);
         count += seen ? 1 : 0;
     }
@@ -119,7 +120,7 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         const Plane& plane = away_[i];
         const double at = plane.chord.middle_at(zeta), reach2 = plane.chord.reach2_at(zeta);
         const double half = std::sqrt(std::abs(reach2)), left = at - half, right = at + half;
-        const bool on_row = plane.rows.may_hold(zeta) && reach2 > 0.0;
+        const bool on_row = within(zeta, plane.zeta_from, plane.zeta_to) && reach2 > 0.0;
         const bool ends_left = on_row && left > from && plane.depth_at(left, zeta) >= 0.0;
         const bool ends_right = on_row && right < quadric_to && plane.depth_at(right, zeta) >= 0.0;
         from = ends_left ? left : from, left_curve = ends_left ? plane.curve : left_curve;

@@ -36,8 +36,8 @@ class ConvexRows {
     };
     struct Plane {
         Chord chord;
-        CurveRows rows;
-        glm::dvec3 depth;  // W
+        double zeta_from, zeta_to;  // rows that may show it
+        glm::dvec3 depth;           // W
         std::uint16_t curve;
         int surface;
         [[nodiscard]] double depth_at(double xi, double zeta) const { return depth.x * xi + depth.y + depth.z * zeta; }

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "ig_core/outline/convex_rows.h"
-#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/key_points.h"
 #include "ig_core/outline/row_order.h"
 
@@ -95,6 +94,11 @@ double intercept(const Outline& outline, const Boundary& boundary, double zeta) 
 
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up) {
+    make_outline(solid, image_bounds(solid, eye, eye_from_scene), object, eye, eye_from_scene, rows, out, set_up);
+}
+
+void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
+                  const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up) {
     out.object = object;
     out.lines.clear();
     out.key_points.clear();
@@ -104,7 +108,6 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
     out.curve_rows.clear();
     out.visibility_lines.clear();
 
-    const ImageBounds bounds = image_bounds(solid, eye, eye_from_scene);
     const bool near_plane = !bounds.in_front();
     out.near_u = bounds.near_u();
     out.far_u = bounds.farthest > 0.0 ? 1.0 / bounds.farthest : 0.0;

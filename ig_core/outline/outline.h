@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/image_forms.h"
 
 namespace quadrig {
@@ -47,8 +48,8 @@ struct CurveRows {
         zeta_from = std::min(zeta_from, zeta);
         zeta_to = std::max(zeta_to, zeta);
     }
+    static constexpr double kRounding = 1e-9;
     [[nodiscard]] bool may_hold(double zeta) const {
-        constexpr double kRounding = 1e-9;
         return zeta >= zeta_from - kRounding && zeta <= zeta_to + kRounding;
     }
 };
@@ -98,7 +99,10 @@ struct Cut {
 /// At most so many cuts on one row: each of the 19 planes and the quadric can show twice.
 inline constexpr int kMaxCuts = 40;
 
-/// Builds the outline. Reuses the memory of `out`.
+/// Builds the outline of a solid whose image_bounds from the same eye are known. Reuses the memory of `out`.
+void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
+                  const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
+/// The same with bounds of its own.
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
 

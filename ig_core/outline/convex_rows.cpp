@@ -40,9 +40,9 @@ ConvexRows::ConvexRows(const Outline& outline) : limb_chord_(outline.curves[0]),
         face_of[i] = faces_eye ? static_cast<std::uint8_t>(facing_count_) : kNoFace;
         Plane& plane = faces_eye ? facing_[facing_count_++] : away_[away_count_++];
         plane.chord = Chord(outline.curves[i + 1]);
-        plane.zeta_from = outline.curve_rows[i + 1].zeta_from - CurveRows::kRounding;
-        plane.zeta_to = outline.curve_rows[i + 1].zeta_to + CurveRows::kRounding;
-        plane.depth = (-1.0 / at_eye) * outline.visibility_lines[i + 1];
+        plane.zeta_from = outline.curves[i + 1].rows.zeta_from - CurveRows::kRounding;
+        plane.zeta_to = outline.curves[i + 1].rows.zeta_to + CurveRows::kRounding;
+        plane.depth = (-1.0 / at_eye) * outline.curves[i + 1].visibility_line;
         plane.curve = static_cast<std::uint16_t>(i + 1);
         plane.surface = e.planes[i].surface;
     }

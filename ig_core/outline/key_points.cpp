@@ -34,7 +34,7 @@ bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
 /// A key point on one or two curves.
 void add_key_point(Outline& out, const KeyPoint& point, std::size_t curve, std::size_t other) {
     out.key_points.push_back(point);
-    for (const std::size_t i : {curve, other}) out.curve_rows[i].add(point.zeta);
+    for (const std::size_t i : {curve, other}) out.curves[i].rows.add(point.zeta);
 }
 
 /// Limb points are where the ray touches the quadric, k = -B/A.
@@ -61,7 +61,7 @@ void add_curve_extrema(Outline& out, std::size_t index, const EyePlane& plane) {
 
 /// Contact points: limb and visibility line meet (Eq 6, 12).
 void add_contacts(Outline& out, std::size_t curve, const EyePlane& plane) {
-    const glm::dvec3& v = out.visibility_lines[curve];
+    const glm::dvec3& v = out.curves[curve].visibility_line;
     const bool by_zeta = std::abs(v.x) >= std::abs(v.z);
     const double lead = by_zeta ? v.x : v.z;
     if (lead == 0.0) return;
@@ -119,9 +119,7 @@ void find_boundaries(const Solid& solid, const glm::dmat3& eye_from_scene, Outli
     for (std::size_t i = 0; i < plane_count; ++i) {
         if (!e.planes[i].cuts) continue;
         curve_of[i] = out.curves.size();
-        out.curves.push_back(intersection_curve_on_rows(e, e.planes[i]));
-        out.curve_rows.emplace_back();
-        out.visibility_lines.push_back(visibility_line(e, e.planes[i]));
+        out.curves.push_back({intersection_curve_on_rows(e, e.planes[i]), {}, visibility_line(e, e.planes[i])});
     }
     if (out.direct) return add_endless_lines(out);
     const auto add = [&](const SolidEdge& edge) {

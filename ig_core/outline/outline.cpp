@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/key_points.h"
@@ -13,14 +14,17 @@ namespace quadrig {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Two extrema of every curve, two contacts of every plane, two ends of every edge.
+constexpr std::size_t kMaxKeyPoints = 2 + 4 * kMaxEyePlanes + kMaxEyePlanes * (kMaxEyePlanes - 1);
+
 /// Heights of the key points, rising.
-void sort_heights(const std::vector<KeyPoint>& keys, std::vector<double>& heights) {
-    heights.resize(keys.size());
+std::span<const double> sort_heights(const std::vector<KeyPoint>& keys, std::array<double, kMaxKeyPoints>& heights) {
+    const std::span<double> sorted(heights.data(), keys.size());
     constexpr std::size_t kFew = 32;
     if (keys.size() > kFew) {
-        std::transform(keys.begin(), keys.end(), heights.begin(), [](const KeyPoint& key) { return key.zeta; });
-        std::sort(heights.begin(), heights.end());
-        return;
+        std::transform(keys.begin(), keys.end(), sorted.begin(), [](const KeyPoint& key) { return key.zeta; });
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
     }
     // Faster for a few: counting those below each takes no branch that cannot be foreseen.
     std::array<unsigned, kFew> below;
@@ -33,7 +37,8 @@ void sort_heights(const std::vector<KeyPoint>& keys, std::vector<double>& height
         }
         below[i] = count;
     }
-    for (std::size_t i = 0; i < keys.size(); ++i) heights[below[i]] = keys[i].zeta;
+    for (std::size_t i = 0; i < keys.size(); ++i) sorted[below[i]] = keys[i].zeta;
+    return sorted;
 }
 
 /// `convex_rows`: the solid is an ellipsoid whole in front of the near plane, by its anchored forms.
@@ -63,8 +68,8 @@ void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
         }
         from = to, from_row = to_row;
     };
-    sort_heights(out.key_points, out.heights);
-    for (const double height : out.heights)
+    std::array<double, kMaxKeyPoints> heights;
+    for (const double height : sort_heights(out.key_points, heights))
         if (height > from) close_band(height);
     close_band(kInfinity);
     if (out.bands.empty()) {
@@ -105,8 +110,6 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
     out.bands.clear();
     out.changes.clear();
     out.curves.clear();
-    out.curve_rows.clear();
-    out.visibility_lines.clear();
 
     const bool near_plane = !bounds.in_front();
     out.near_u = bounds.near_u();
@@ -116,9 +119,7 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
 
     out.direct = endless;
     out.limb_only = solid.planes.empty() && !near_plane && !endless;
-    out.curves.push_back(limb_on_rows(out.solid));
-    out.curve_rows.emplace_back();
-    out.visibility_lines.emplace_back(0.0);
+    out.curves.push_back({limb_on_rows(out.solid), {}, glm::dvec3(0.0)});
     if (out.limb_only) {
         const RowConic& limb = out.curves[0];
         // The quadric's silhouette spans the rows between its two extrema: b +- sqrt(b^2 - a c) of the row
@@ -127,7 +128,7 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         out.zeta_from = (-b + root) / a, out.zeta_to = (-b - root) / a;  // a < 0
         if (!(a < 0.0 && out.zeta_from < out.zeta_to)) out.zeta_from = 1.0, out.zeta_to = -1.0;
-        out.curve_rows[0] = {out.zeta_from, out.zeta_to};
+        out.curves[0].rows = {out.zeta_from, out.zeta_to};
         return;
     }
     find_boundaries(solid, eye_from_scene, out);

@@ -54,6 +54,12 @@ struct CurveRows {
     }
 };
 
+/// A curve that can bound what is seen: the limb, or the intersection curve of a plane.
+struct Curve : RowConic {
+    CurveRows rows;                   ///< not of solids without end
+    glm::dvec3 visibility_line{0.0};  ///< V_j of the plane (Eq 12)
+};
+
 /// Rows from zeta_from to zeta_to that show changes first..first+count-1 (indices into Outline::changes), from left to
 /// right.
 struct ZBand {
@@ -70,13 +76,10 @@ struct KeyPoint {
 struct Outline {
     std::uint32_t object = 0;
     EyeSolid solid;
-    std::vector<RowConic> curves;              ///< [0] the limb, then the intersection curves of the planes that cut
-    std::vector<CurveRows> curve_rows;         ///< of each curve; not of solids without end
-    std::vector<glm::dvec3> visibility_lines;  ///< V_j of each curve's plane (Eq 12), zero for the limb
+    std::vector<Curve> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
-    std::vector<double> heights;  ///< of the key points, rising: where z-bands meet
-    std::vector<ZBand> bands;     ///< by rising zeta; what is in none of them shows nothing
+    std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
     std::vector<Change> changes;
     bool limb_only = false;             ///< nothing but the limb: one band, one surface
     bool direct = false;                ///< every row is solved by itself: solids without end

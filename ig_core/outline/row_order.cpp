@@ -21,7 +21,7 @@ std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Ca
         if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
     };
     const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
-        if (!outline.direct && !outline.curve_rows[curve].may_hold(zeta)) return;
+        if (!outline.direct && !outline.curves[curve].rows.may_hold(zeta)) return;
         if (misses_row(outline.curves[curve], zeta)) return;
         const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
         if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});

@@ -18,12 +18,6 @@ bool within(double x, double from, double to) { return std::min(x - from, to - x
 
 }  // namespace
 
-struct ConvexRows::Stretch {
-    double from, to;
-    std::uint8_t face, left_edge, right_edge;
-    bool bare_left, bare_right;  // nothing is seen beyond that end
-};
-
 ConvexRows::Chord::Chord(const RowConic& conic) {
     const double inverse = 1.0 / conic.alpha, square = inverse * inverse;
     middle = {-conic.beta[0] * inverse, -conic.beta[1] * inverse};
@@ -71,11 +65,7 @@ bool ConvexRows::shows(int face, double xi, double zeta) const {
     return own <= entry && own > exit;
 }
 
-bool ConvexRows::tell(double zeta, RowOrder& order) const {
-    using Kind = Boundary::Kind;
-    order.clear();
-    const double limb_reach2 = limb_chord_.reach2_at(zeta);
-    if (limb_reach2 < 0.0) return true;
+bool ConvexRows::find_faces(double zeta, Faces& faces) const {
     unsigned taken = 0;
     std::array<std::uint8_t, kMaxPlanes + 1> left_edges{}, right_edges{};
     for (std::size_t i = 1; i < edge_count_; ++i) {
@@ -87,18 +77,15 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         taken |= left_edges[right] | right_edges[left];
         left_edges[right] = right_edges[left] = static_cast<std::uint8_t>(i);
     }
-
     bool doubtful = edge_on_ || taken != 0;
-
-    std::array<Stretch, kMaxPlanes> faces;
-    std::size_t count = 0;
+    faces.count = 0;
     for (std::size_t i = 0; i < facing_count_; ++i) {
         const Plane& plane = facing_[i];
         const double reach2 = plane.chord.reach2_at(zeta), middle = plane.chord.middle_at(zeta);
         const double reach = std::sqrt(std::abs(reach2));
         const Edge &left = edges_[left_edges[i]], &right = edges_[right_edges[i]];
         const bool at_left = left_edges[i] != 0, at_right = right_edges[i] != 0;
-        Stretch& face = faces[count];
+        Stretch& face = faces.stretches[faces.count];
         face.from = choose(at_left, left.xi_at(zeta), middle - reach);
         face.to = choose(at_right, right.xi_at(zeta), middle + reach);
         face.face = static_cast<std::uint8_t>(i), face.left_edge = left_edges[i], face.right_edge = right_edges[i];
@@ -106,15 +93,18 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         face.bare_right = choose(at_right, right.right_face == kNoFace, plane.depth_at(face.to, zeta) < 0.0);
         const bool seen = within(zeta, plane.zeta_from, plane.zeta_to);
         doubtful |= choose(seen, choose(at_left, !at_right, true), false) && !(reach2 >= 0.0);
-        count += seen ? 1 : 0;
+        faces.count += seen ? 1 : 0;
     }
-    if (doubtful) return false;
-    for (std::size_t i = 1; i < count; ++i)
-        for (std::size_t at = i; at > 0 && faces[at - 1].from > faces[at].from; --at)
-            std::swap(faces[at - 1], faces[at]);
+    auto& s = faces.stretches;
+    for (std::size_t i = 1; i < faces.count; ++i)
+        for (std::size_t at = i; at > 0 && s[at - 1].from > s[at].from; --at) std::swap(s[at - 1], s[at]);
+    return !doubtful;
+}
 
+ConvexRows::Ends ConvexRows::quadric_ends(double zeta, double limb_reach2) const {
+    using Kind = Boundary::Kind;
     const double limb_middle = limb_chord_.middle_at(zeta), limb_reach = std::sqrt(limb_reach2);
-    double from = limb_middle - limb_reach, quadric_to = limb_middle + limb_reach;
+    double from = limb_middle - limb_reach, to = limb_middle + limb_reach;
     std::uint16_t left_curve = 0, right_curve = 0;
     for (std::size_t i = 0; i < away_count_; ++i) {
         const Plane& plane = away_[i];
@@ -122,14 +112,27 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         const double half = std::sqrt(std::abs(reach2)), left = at - half, right = at + half;
         const bool on_row = within(zeta, plane.zeta_from, plane.zeta_to) && reach2 > 0.0;
         const bool ends_left = on_row && left > from && plane.depth_at(left, zeta) >= 0.0;
-        const bool ends_right = on_row && right < quadric_to && plane.depth_at(right, zeta) >= 0.0;
+        const bool ends_right = on_row && right < to && plane.depth_at(right, zeta) >= 0.0;
         from = ends_left ? left : from, left_curve = ends_left ? plane.curve : left_curve;
-        quadric_to = ends_right ? right : quadric_to, right_curve = ends_right ? plane.curve : right_curve;
+        to = ends_right ? right : to, right_curve = ends_right ? plane.curve : right_curve;
     }
-
     // The limb's form is positive, a plane's negative within.
-    const Boundary quadric_left{left_curve == 0 ? Kind::rising : Kind::falling, left_curve};
-    const Boundary quadric_right{right_curve == 0 ? Kind::falling : Kind::rising, right_curve};
+    return {from,
+            to,
+            {left_curve == 0 ? Kind::rising : Kind::falling, left_curve},
+            {right_curve == 0 ? Kind::falling : Kind::rising, right_curve}};
+}
+
+bool ConvexRows::tell(double zeta, RowOrder& order) const {
+    using Kind = Boundary::Kind;
+    order.clear();
+    const double limb_reach2 = limb_chord_.reach2_at(zeta);
+    if (limb_reach2 < 0.0) return true;
+    Faces faces;
+    if (!find_faces(zeta, faces)) return false;
+    const Ends quadric = quadric_ends(zeta, limb_reach2);
+    const std::size_t count = faces.count;
+    double from = quadric.from;
     const auto boundary_of = [](std::uint8_t edge, Kind kind, std::uint16_t curve) {
         return edge != 0 ? Boundary{Kind::line, static_cast<std::uint16_t>(edge - 1)} : Boundary{kind, curve};
     };
@@ -140,10 +143,10 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         if (order.last_surface() != surface) order.add(boundary, surface);
         return true;
     };
-    Boundary boundary = quadric_left;
+    Boundary boundary = quadric.left;
     std::uint8_t edge = 0;  // that the last face ended in
     for (std::size_t i = 0; i < count; ++i) {
-        const Stretch& face = faces[i];
+        const Stretch& face = faces.stretches[i];
         if (face.bare_left ? i > 0 : edge != face.left_edge) return false;
         if (face.bare_right && i + 1 < count) return false;
         if (!face.bare_left && edge == 0 && !show(boundary, face.from, kQuadric)) return false;
@@ -152,9 +155,9 @@ bool ConvexRows::tell(double zeta, RowOrder& order) const {
         if (!show(boundary_of(face.left_edge, Kind::falling, curve), face.to, face.face)) return false;
         from = face.to, edge = face.right_edge, boundary = boundary_of(edge, Kind::rising, curve);
     }
-    if (count == 0 || !faces[count - 1].bare_right) {
-        if (edge != 0 || !show(boundary, quadric_to, kQuadric)) return false;
-        boundary = quadric_right;
+    if (count == 0 || !faces.stretches[count - 1].bare_right) {
+        if (edge != 0 || !show(boundary, quadric.to, kQuadric)) return false;
+        boundary = quadric.right;
     }
     if (order.begin() == order.end()) return false;
     order.add(boundary, kNoSurface);

@@ -20,8 +20,9 @@ class ConvexRows {
     /// Expects all boundaries and the rows of each curve in place. Of the outline nothing is kept.
     explicit ConvexRows(const Outline& outline);
 
-    /// Tells a row between two key points. False, with `order` undefined, where one ray in the middle of an interval
-    /// says otherwise, or where more than one chain may be meant: solve_row then knows.
+    /// Tells a row between two key points; nothing is on one that the limb does not reach. False, with `order`
+    /// undefined, where one ray in the middle of an interval says otherwise, or where more than one chain may be meant:
+    /// solve_row then knows.
     bool tell(double zeta, RowOrder& order) const;
 
   private:
@@ -50,10 +51,27 @@ class ConvexRows {
         [[nodiscard]] double xi_at(double zeta) const { return xi[0] + zeta * xi[1]; }
     };
     /// The part of a row on which a face is seen.
-    struct Stretch;
+    struct Stretch {
+        double from, to;
+        std::uint8_t face, left_edge, right_edge;
+        bool bare_left, bare_right;  // nothing is seen beyond that end
+    };
+    struct Faces {
+        std::size_t count;
+        std::array<Stretch, kMaxPlanes> stretches;
+    };
+    struct Ends {
+        double from, to;
+        Boundary left, right;
+    };
 
     static constexpr std::uint8_t kNoFace = kMaxPlanes;
     static constexpr int kQuadric = -1;
+    /// From left to right. False where edges or chords leave a doubt.
+    bool find_faces(double zeta, Faces& faces) const;
+    /// Where the quadric's seen side ends but for faces.
+    [[nodiscard]] Ends quadric_ends(double zeta, double limb_reach2) const;
+    /// Whether a ray meets that face, or the quadric, first.
     [[nodiscard]] bool shows(int face, double xi, double zeta) const;
 
     Chord limb_chord_;

@@ -31,8 +31,9 @@ bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
     return curved + straight <= kTolerance * (std::abs(curved) + std::abs(straight));
 }
 
-/// A key point on one or two curves.
+/// A key point on one or two curves. One whose place is not a number is none.
 void add_key_point(Outline& out, const KeyPoint& point, std::size_t curve, std::size_t other) {
+    if (std::isnan(point.zeta)) return;
     out.key_points.push_back(point);
     for (const std::size_t i : {curve, other}) out.curves[i].rows.add(point.zeta);
 }

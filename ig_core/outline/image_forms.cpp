@@ -35,16 +35,6 @@ bool misses_row(const RowConic& conic, double zeta) {
     return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
 }
 
-double rising_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
-}
-
-double falling_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
-}
-
 RowRoots roots_on_row(const RowConic& conic, double zeta) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
     const double sum = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels

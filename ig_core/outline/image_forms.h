@@ -20,7 +20,9 @@
 /// and P at the eye, comes from extended precision in scene space.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "ig_core/geometry/symmetric.h"
@@ -70,8 +72,14 @@ struct RowRoots {
 };
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 /// The same, one of them.
-double rising_on_row(const RowConic& conic, double zeta);
-double falling_on_row(const RowConic& conic, double zeta);
+inline double rising_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
+}
+inline double falling_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+}
 
 struct EyeSolid {
     SetUp set_up = SetUp::anchored;

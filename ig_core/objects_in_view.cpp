@@ -76,7 +76,7 @@ const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseco
     if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
         const auto start = std::chrono::steady_clock::now();
         const std::uint32_t index = object(place);
-        make_outline(solids_[index], index, eye_, eye_from_scene_, rows_, outline, set_up_);
+        make_outline(solids_[index], bounds_[index], index, eye_, eye_from_scene_, rows_, outline, set_up_);
         if (outline.zeta_to - outline.zeta_from < least_height_) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
         state.store(OutlineState::made, std::memory_order_release);
         time += std::chrono::steady_clock::now() - start;

@@ -210,8 +210,8 @@ std::vector<SeenBand> bands_in_window(const Outline& outline, const ImageWindow&
     for (const ZBand& band : outline.bands) {
         SeenBand seen{band.zeta_from, band.zeta_to, {}, {}};
         for (std::uint32_t i = band.first; i < band.first + band.count; ++i) {
-            seen.boundaries.push_back(outline.boundaries[i]);
-            seen.surfaces.push_back(outline.surfaces[i]);
+            seen.boundaries.push_back(outline.changes[i].boundary);
+            seen.surfaces.push_back(outline.changes[i].surface);
         }
         bands.push_back(std::move(seen));
     }

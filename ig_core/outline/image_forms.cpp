@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ig_core/geometry/quadric_line.h"
 #include "ig_core/outline/textbook_forms.h"
 
 namespace quadrig {
@@ -14,48 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Ellipsoids within this cosine of the look direction get their own image origin; further out the shear itself would
 /// be long.
 constexpr double kLeastShearCosine = 0.15;
-
-/// A plane whose equation along a line is this small beside its terms holds the line.
-constexpr double kHolds = 1e-13;
-
-/// Rounding of d'Md for unit d: the largest entry of M is about 1.
-constexpr double kFlat = 1e-14;
-
-/// Discriminant of Q along a line given by direction and moment (q x direction) about the anchor, as a bilinear form of
-/// two lines.
-double line_discriminant(const EyeSolid& s, const glm::dvec3& direction_a, const glm::dvec3& moment_a,
-                         const glm::dvec3& direction_b, const glm::dvec3& moment_b) {
-    const glm::dvec3 ma = s.m * direction_a, mb = s.m * direction_b;
-    return -value(s.adjugate, moment_a, moment_b) - s.c * glm::dot(direction_a, mb) +
-           glm::dot(s.w, direction_a) * glm::dot(s.w, direction_b) + glm::dot(ma, glm::cross(s.w, moment_b)) +
-           glm::dot(mb, glm::cross(s.w, moment_a));
-}
-
-struct Interval {
-    double from, to;
-};
-
-/// Where Q <= 0 along a line with A t^2 + 2 B t + C and discriminant D: one interval, or two when A < 0. An A of `flat`
-/// or less may be rounding.
-int inside_quadric(double a, double b, double c, double d, double flat, std::array<Interval, 2>& out) {
-    a += 0.0;  // -0 would flip the sign of an infinite root
-    if (!(d > 0.0)) {
-        // Then A and C have one sign, but along a cylinder's axis A is rounding.
-        if (a > flat || c > 0.0) return 0;
-        out[0] = {-kInfinity, kInfinity};
-        return 1;
-    }
-    const double root = std::sqrt(d);
-    const double entry = b <= 0.0 ? c / (root - b) : -(b + root) / a;
-    const double exit = b >= 0.0 ? -c / (b + root) : (root - b) / a;
-    if (a >= 0.0) {
-        out[0] = {entry, exit};
-        return 1;
-    }
-    out[0] = {-kInfinity, exit};
-    out[1] = {entry, kInfinity};
-    return 2;
-}
 
 void set_forms(EyeSolid& e) {
     // L = -[a]x' adj(M) [a]x - c M + w w' + 2 (w.a) M - (Ma) w' - w (Ma)'
@@ -68,18 +27,19 @@ void set_forms(EyeSolid& e) {
 
 }  // namespace
 
-double rising_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
-}
-
-double falling_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+bool misses_row(const RowConic& conic, double zeta) {
+    constexpr double kTouch = 1e-12;  // a discriminant this small beside its terms may be zero
+    const double discriminant = conic.discriminant_at(zeta);
+    if (discriminant >= 0.0) return false;
+    const double beta = conic.beta_at(zeta);
+    return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
 }
 
 RowRoots roots_on_row(const RowConic& conic, double zeta) {
-    return {rising_on_row(conic, zeta), falling_on_row(conic, zeta)};
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    const double sum = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
+    const double one = sum / conic.alpha, other = conic.gamma_at(zeta) / sum;
+    return beta <= 0.0 ? RowRoots{one, other} : RowRoots{other, one};
 }
 
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
@@ -154,21 +114,23 @@ RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
     const glm::dvec3 yx(along.y + along.z - bl, -a.y * n.x, -a.z * n.x);
     const glm::dvec3 yy(-a.x * n.y, along.x + along.z - bl, -a.z * n.y);
     const glm::dvec3 yz(-a.x * n.z, -a.y * n.z, along.x + along.y - bl);
-    const auto entry = [&](const glm::dvec3& p, double hp, const glm::dvec3& q, double hq) {
-        return value(e.m, p, q) + hp * glm::dot(e.w, q) + hq * glm::dot(e.w, p) + e.c * hp * hq;
+    const glm::dvec3 mx = e.m * yx, my = e.m * yy, mz = e.m * yz;
+    const double wx = glm::dot(e.w, yx), wy = glm::dot(e.w, yy), wz = glm::dot(e.w, yz);
+    const auto entry = [&](const glm::dvec3& p, double hp, double wp, const glm::dvec3& mq, double hq, double wq) {
+        return glm::dot(p, mq) + hp * wq + hq * wp + e.c * hp * hq;
     };
     RowConic conic;
-    conic.alpha = entry(yx, n.x, yx, n.x);
-    conic.beta = {entry(yx, n.x, yy, n.y), entry(yx, n.x, yz, n.z)};
-    conic.gamma = {entry(yy, n.y, yy, n.y), 2.0 * entry(yy, n.y, yz, n.z), entry(yz, n.z, yz, n.z)};
+    conic.alpha = entry(yx, n.x, wx, mx, n.x, wx);
+    conic.beta = {entry(yx, n.x, wx, my, n.y, wy), entry(yx, n.x, wx, mz, n.z, wz)};
+    conic.gamma = {entry(yy, n.y, wy, my, n.y, wy), 2.0 * entry(yy, n.y, wy, mz, n.z, wz),
+                   entry(yz, n.z, wz, mz, n.z, wz)};
     // Planes l(zeta) = (0, -zeta, 1) through the eye and the row cut plane j in lines: direction n x l, moment P(a) l -
     // (l.a) n.
     const glm::dvec3 l0(0, 0, 1), l1(0, -1, 0);
-    const glm::dvec3 u0 = glm::cross(n, l0), u1 = glm::cross(n, l1);
-    const glm::dvec3 m0 = bl * l0 - a.z * n, m1 = bl * l1 + a.y * n;
     const double b2 = plane.at_eye * plane.at_eye;
-    conic.discriminant = {b2 * line_discriminant(e, u0, m0, u0, m0), 2.0 * b2 * line_discriminant(e, u0, m0, u1, m1),
-                          b2 * line_discriminant(e, u1, m1, u1, m1)};
+    const auto [d0, d1, d2] =
+        line_discriminants(e, {glm::cross(n, l0), bl * l0 - a.z * n}, {glm::cross(n, l1), bl * l1 + a.y * n});
+    conic.discriminant = {b2 * d0, 2.0 * b2 * d1, b2 * d2};
     return conic;
 }
 
@@ -192,47 +154,14 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
 bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
     // A point kept in vain costs one more question; one lost costs a wrong picture.
     constexpr double kTolerance = 1e-6;
+    int kept = 1;
     for (int i = 0; i < e.plane_count; ++i) {
         const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        if (&plane == own) continue;
         const double at = glm::dot(plane.normal, p);
-        if (at + plane.at_eye < -kTolerance * (std::abs(at) + std::abs(plane.at_eye))) return false;
+        const double left = at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye));
+        kept &= static_cast<int>(!(left < 0.0)) | static_cast<int>(&plane == own);  // no way out: none is foreseen
     }
-    return true;
-}
-
-LineSegment clip_line(const EyeSolid& e, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
-                      int skip_b) {
-    double from = -kInfinity, to = kInfinity;
-    for (int i = 0; i < e.plane_count; ++i) {
-        if (i == skip_a || i == skip_b) continue;
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        const double slope = glm::dot(plane.normal, direction);
-        const double reach = glm::dot(plane.normal, origin), here = reach + plane.local_offset;
-        // A third plane through the line takes nothing of it but by rounding.
-        if (slope * slope <= kHolds * kHolds * glm::dot(direction, direction) &&
-            std::abs(here) <= kHolds * (std::abs(reach) + glm::dot(glm::abs(plane.normal), glm::abs(e.anchor))))
-            continue;
-        if (slope > 0.0)
-            from = std::max(from, -here / slope);
-        else if (slope < 0.0)
-            to = std::min(to, -here / slope);
-        else if (here <= 0.0)
-            return {1.0, 0.0};
-    }
-    if (!(from < to)) return {1.0, 0.0};
-    const glm::dvec3 moment = glm::cross(origin, direction);
-    std::array<Interval, 2> pieces;
-    const int count = inside_quadric(value(e.m, direction), value(e.m, origin, direction) + glm::dot(e.w, direction),
-                                     value(e.m, origin) + 2.0 * glm::dot(e.w, origin) + e.c,
-                                     line_discriminant(e, direction, moment, direction, moment),
-                                     kFlat * glm::dot(direction, direction), pieces);
-    for (int i = 0; i < count; ++i) {
-        const Interval& piece = pieces[static_cast<std::size_t>(i)];
-        const LineSegment segment{std::max(from, piece.from), std::min(to, piece.to)};
-        if (segment.from < segment.to) return segment;
-    }
-    return {1.0, 0.0};
+    return kept != 0;
 }
 
 int surface_at(const EyeSolid& e, double xi, double zeta) {

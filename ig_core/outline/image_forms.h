@@ -20,7 +20,9 @@
 /// and P at the eye, comes from extended precision in scene space.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "ig_core/geometry/symmetric.h"
@@ -57,6 +59,10 @@ struct RowConic {
     }
 };
 
+/// Whether the row is clear of the curve by more than rounding. A wedge's edge is a double line: it is touched
+/// everywhere.
+bool misses_row(const RowConic& conic, double zeta);
+
 /// Intercepts of a conic with a row: `rising`, where the form goes from negative to positive with xi, and `falling`.
 /// Each is infinite or NaN where it does not exist. A discriminant below zero counts as zero: rows just outside a curve
 /// touch it.
@@ -66,8 +72,14 @@ struct RowRoots {
 };
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 /// The same, one of them.
-double rising_on_row(const RowConic& conic, double zeta);
-double falling_on_row(const RowConic& conic, double zeta);
+inline double rising_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
+}
+inline double falling_on_row(const RowConic& conic, double zeta) {
+    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
+    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+}
 
 struct EyeSolid {
     SetUp set_up = SetUp::anchored;
@@ -102,15 +114,6 @@ glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const Eye
 /// Whether a point of the sheared eye space is kept by every plane but `own`, to within a tolerance that errs towards
 /// keeping it.
 bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
-
-/// The part of a line that lies in the solid, {origin + t direction}, origin about the anchor. Planes `skip_a`,
-/// `skip_b` (the ones the line lies in) do not count. Empty where from >= to.
-struct LineSegment {
-    double from;
-    double to;
-};
-LineSegment clip_line(const EyeSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction, int skip_a,
-                      int skip_b);
 
 /// First surface that the ray through (xi, zeta) enters, as EyePlane::surface (0 the quadric), or kNoSurface;
 /// kNearSurface is turned into kNoSurface. This is the slow, sure answer for one ray; z-bands carry it from row to row.

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+
+#include "ig_core/scene/solid_edges.h"
 
 namespace quadrig {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-6;
 
 /// The two values of t with a t^2 + 2 b t + c = 0 and their count; coincident roots within rounding count as real.
@@ -27,14 +31,11 @@ bool quadric_faces_eye(const EyeSolid& e, const glm::dvec3& p) {
     return curved + straight <= kTolerance * (std::abs(curved) + std::abs(straight));
 }
 
-/// A key point on one or two curves.
+/// A key point on one or two curves. One whose place is not a number is none.
 void add_key_point(Outline& out, const KeyPoint& point, std::size_t curve, std::size_t other) {
+    if (std::isnan(point.zeta)) return;
     out.key_points.push_back(point);
-    for (const std::size_t i : {curve, other}) {
-        CurveRows& rows = out.curve_rows[i];
-        rows.zeta_from = std::min(rows.zeta_from, point.zeta);
-        rows.zeta_to = std::max(rows.zeta_to, point.zeta);
-    }
+    for (const std::size_t i : {curve, other}) out.curves[i].rows.add(point.zeta);
 }
 
 /// Limb points are where the ray touches the quadric, k = -B/A.
@@ -53,15 +54,15 @@ void add_curve_extrema(Outline& out, std::size_t index, const EyePlane& plane) {
         const double zeta = zetas[static_cast<std::size_t>(i)], xi = -curve.beta_at(zeta) / curve.alpha;
         const glm::dvec3 d(xi, 1.0, zeta);
         const double k = -plane.at_eye / glm::dot(plane.normal, d);
-        if (!(std::isfinite(k) && k > 0.0 && kept_by_planes(out.solid, k * d, &plane))) continue;
-        if (plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d))
+        if (!(std::isfinite(k) && k > 0.0)) continue;
+        if ((plane.at_eye <= 0.0 || quadric_faces_eye(out.solid, k * d)) && kept_by_planes(out.solid, k * d, &plane))
             add_key_point(out, {xi, zeta, KeyPoint::Kind::curve_extremum}, index, index);
     }
 }
 
 /// Contact points: limb and visibility line meet (Eq 6, 12).
 void add_contacts(Outline& out, std::size_t curve, const EyePlane& plane) {
-    const glm::dvec3 v = visibility_line(out.solid, plane);
+    const glm::dvec3& v = out.curves[curve].visibility_line;
     const bool by_zeta = std::abs(v.x) >= std::abs(v.z);
     const double lead = by_zeta ? v.x : v.z;
     if (lead == 0.0) return;
@@ -76,49 +77,68 @@ void add_contacts(Outline& out, std::size_t curve, const EyePlane& plane) {
     }
 }
 
-}  // namespace
-
-void find_boundaries(Outline& out) {
+/// An edge and its ends.
+void add_edge(const SolidEdge& edge, const glm::dmat3& eye_from_scene, std::size_t curve, std::size_t other_curve,
+              Outline& out) {
     const EyeSolid& e = out.solid;
-    std::array<std::size_t, kMaxEyePlanes> curve_of{};
+    const EyePlane &a = e.planes[edge.plane], &b = e.planes[edge.other_plane];
+    // Between two planes that face away the edge itself is hidden, but its ends can be where their curves meet.
+    const bool hidden = a.at_eye > 0.0 && b.at_eye > 0.0;
+    EdgeLine line{hidden ? glm::dvec3(0.0) : intersection_line(e, a, b), kInfinity, -kInfinity, edge.plane,
+                  edge.other_plane};
+    for (const glm::dvec3& end : {edge.from, edge.to}) {
+        const glm::dvec3 q = eye_from_scene * end;
+        const glm::dvec3 p = e.anchor + glm::dvec3(q.x - e.x0 * q.y, q.y, q.z - e.z0 * q.y);
+        const double xi = p.x / p.y, zeta = p.z / p.y;
+        line.zeta_from = std::min(line.zeta_from, zeta);
+        line.zeta_to = std::max(line.zeta_to, zeta);
+        if (!hidden || quadric_faces_eye(e, p))
+            add_key_point(out, {xi, zeta, KeyPoint::Kind::edge_end}, curve, other_curve);
+    }
+    if (!hidden) out.lines.push_back(line);
+}
+
+/// Of a solid without end every line in which two planes meet is taken for an edge, and of no length known.
+void add_endless_lines(Outline& out) {
+    const EyeSolid& e = out.solid;
     for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& pi = e.planes[static_cast<std::size_t>(i)];
-        if (!pi.cuts) continue;
-        curve_of[static_cast<std::size_t>(i)] = out.curves.size();
-        out.curves.push_back(intersection_curve_on_rows(e, pi));
-        out.curve_rows.emplace_back();
         for (int j = 0; j < i; ++j) {
-            const EyePlane& pj = e.planes[static_cast<std::size_t>(j)];
-            if (!pj.cuts) continue;
-            // Between two planes that face away the edge itself is hidden, but its ends can be where their curves meet.
-            const bool hidden = pi.at_eye > 0.0 && pj.at_eye > 0.0;
-            const glm::dvec3 line = intersection_line(e, pi, pj);
-            if (out.direct) {
-                if (!hidden)
-                    out.lines.push_back(
-                        {line, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
-                continue;
-            }
-            const glm::dvec3 direction = glm::cross(pi.normal, pj.normal);
-            const double length2 = glm::dot(direction, direction);
-            if (!(length2 > 0.0)) continue;
-            const glm::dvec3 moment = pi.local_offset * pj.normal - pj.local_offset * pi.normal;
-            const glm::dvec3 origin = glm::cross(direction, moment) / length2;
-            const LineSegment segment = clip_line(e, origin, direction, i, j);
-            if (!(segment.from < segment.to)) continue;
-            EdgeLine edge{line, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-            for (const double t : {segment.from, segment.to}) {
-                const glm::dvec3 p = e.anchor + origin + t * direction;
-                const double xi = p.x / p.y, zeta = p.z / p.y;
-                edge.zeta_from = std::min(edge.zeta_from, zeta);
-                edge.zeta_to = std::max(edge.zeta_to, zeta);
-                if (!hidden || quadric_faces_eye(e, p))
-                    add_key_point(out, {xi, zeta, KeyPoint::Kind::edge_end}, curve_of[static_cast<std::size_t>(i)],
-                                  curve_of[static_cast<std::size_t>(j)]);
-            }
-            if (!hidden) out.lines.push_back(edge);
+            const EyePlane &a = e.planes[static_cast<std::size_t>(i)], &b = e.planes[static_cast<std::size_t>(j)];
+            if (a.cuts && b.cuts && !(a.at_eye > 0.0 && b.at_eye > 0.0))
+                out.lines.push_back({intersection_line(e, a, b), -kInfinity, kInfinity, static_cast<std::uint8_t>(i),
+                                     static_cast<std::uint8_t>(j)});
         }
     }
+}
+
+}  // namespace
+
+void find_boundaries(const Solid& solid, const glm::dmat3& eye_from_scene, Outline& out) {
+    const EyeSolid& e = out.solid;
+    const auto plane_count = static_cast<std::size_t>(e.plane_count);
+    std::array<std::size_t, kMaxEyePlanes> curve_of{};
+    for (std::size_t i = 0; i < plane_count; ++i) {
+        if (!e.planes[i].cuts) continue;
+        curve_of[i] = out.curves.size();
+        out.curves.push_back({intersection_curve_on_rows(e, e.planes[i]), {}, visibility_line(e, e.planes[i])});
+    }
+    if (out.direct) return add_endless_lines(out);
+    const auto add = [&](const SolidEdge& edge) {
+        add_edge(edge, eye_from_scene, curve_of[edge.plane], curve_of[edge.other_plane], out);
+    };
+    if (plane_count == solid.planes.size()) {
+        std::for_each(solid.edges.begin(), solid.edges.end(), add);
+        return;
+    }
+    // The near plane, the last, takes a part of the solid's edges and adds its own.
+    std::array<SolidPlane, kMaxEyePlanes> planes;
+    std::copy(solid.planes.begin(), solid.planes.end(), planes.begin());
+    const EyePlane& near_plane = e.planes[plane_count - 1];
+    planes[plane_count - 1] = {glm::row(eye_from_scene, 1), near_plane.local_offset, near_plane.surface};
+    for (std::size_t i = 0; i < plane_count; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (e.planes[i].cuts && e.planes[j].cuts)
+                if (const auto edge = edge_between(solid, {planes.data(), plane_count}, i, j)) add(*edge);
 }
 
 void find_key_points(Outline& out) {

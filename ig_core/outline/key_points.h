@@ -5,10 +5,10 @@
 
 namespace quadrig {
 
-/// Adds to `outline` the intersection curves of all planes that cut and the edges along which two of them meet, each
-/// edge clipped to the solid; edges between two planes that face away are hidden and left out. Expects solid and limb
+/// Adds to `outline` the intersection curves of all planes that cut and the solid's edges as they are seen from the eye
+/// whose attitude is given; edges between two planes that face away are hidden and left out. Expects EyeSolid and limb
 /// in place.
-void find_boundaries(Outline& outline);
+void find_boundaries(const Solid& solid, const glm::dmat3& eye_from_scene, Outline& outline);
 
 /// Adds the key points that lie on the solid (to within a tolerance that errs towards keeping one).
 void find_key_points(Outline& outline);

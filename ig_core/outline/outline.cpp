@@ -4,143 +4,73 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
-#include "ig_core/outline/image_bounds.h"
+#include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/key_points.h"
+#include "ig_core/outline/row_order.h"
 
 namespace quadrig {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Boundaries closer than this (image-plane units; a pixel is 1e-5 at the least) are one: the sliver between them is
-/// not asked.
-constexpr double kSliver = 1e-12;
-/// Boundaries of a band that come out of order by more than this are solved again on their row.
-constexpr double kDisorder = 1e-11;
+/// Two extrema of every curve, two contacts of every plane, two ends of every edge.
+constexpr std::size_t kMaxKeyPoints = 2 + 4 * kMaxEyePlanes + kMaxEyePlanes * (kMaxEyePlanes - 1);
 
-/// A discriminant this small beside its terms may be zero.
-constexpr double kTouch = 1e-12;
-
-struct Candidate {
-    double xi;
-    Boundary boundary;
-};
-constexpr std::size_t kMaxCandidates = 2 + 2 * (kMaxEyePlanes + 1) + kMaxEyePlanes * (kMaxEyePlanes - 1) / 2;
-
-double line_on_row(const glm::dvec3& line, double zeta) { return -(line.y + line.z * zeta) / line.x; }
-
-/// Whether the row is clear of the curve by more than rounding. A wedge's edge is a double line: it is touched
-/// everywhere.
-bool misses_row(const RowConic& conic, double zeta) {
-    const double discriminant = conic.discriminant_at(zeta);
-    if (discriminant >= 0.0) return false;
-    const double beta = conic.beta_at(zeta);
-    return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
-}
-
-bool may_be_seen(const CurveRows& rows, double zeta) {
-    constexpr double kRounding = 1e-9;
-    return zeta >= rows.zeta_from - kRounding && zeta <= rows.zeta_to + kRounding;
-}
-
-/// Every place on a row where the visible surface may change, sorted. Of a bounded solid only what lies on it counts.
-std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, kMaxCandidates>& out) {
-    const EyeSolid& e = outline.solid;
-    std::size_t count = 0;
-    const auto add = [&](double xi, Boundary boundary) {
-        if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
-    };
-    const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
-        if (!outline.direct && !may_be_seen(outline.curve_rows[curve], zeta)) return;
-        if (misses_row(outline.curves[curve], zeta)) return;
-        const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
-        if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});
-        if (on_solid(roots.falling)) add(roots.falling, {Boundary::Kind::falling, curve});
-    };
-    // The point at k = over/under on the ray; where `under` is little more than rounding, nothing is known of it.
-    const auto kept = [&](const glm::dvec3& d, double over, double under, const EyePlane* own) {
-        constexpr double kUnknown = 1e-8;
-        if (outline.direct || !(std::abs(under) > kUnknown * glm::dot(d, d))) return true;
-        const double k = over / under;
-        return k > 0.0 && kept_by_planes(e, k * d, own);
-    };
-    add_roots(0, [&](double xi) {
-        const glm::dvec3 d(xi, 1.0, zeta);
-        return kept(d, -glm::dot(e.v, d), value(e.m, d), nullptr);
-    });
-    std::uint16_t curve = 1;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        if (!plane.cuts) continue;
-        add_roots(curve++, [&](double xi) {
-            const glm::dvec3 d(xi, 1.0, zeta);
-            return kept(d, -plane.at_eye, glm::dot(plane.normal, d), &plane);
-        });
+/// Heights of the key points, rising.
+std::span<const double> sort_heights(const std::vector<KeyPoint>& keys, std::array<double, kMaxKeyPoints>& heights) {
+    const std::span<double> sorted(heights.data(), keys.size());
+    constexpr std::size_t kFew = 32;
+    if (keys.size() > kFew) {
+        std::transform(keys.begin(), keys.end(), sorted.begin(), [](const KeyPoint& key) { return key.zeta; });
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
     }
-    for (std::uint16_t i = 0; i < outline.lines.size(); ++i)
-        if (zeta >= outline.lines[i].zeta_from && zeta <= outline.lines[i].zeta_to)
-            add(line_on_row(outline.lines[i].line, zeta), {Boundary::Kind::line, i});
-    std::sort(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const Candidate& a, const Candidate& b) { return a.xi < b.xi; });
-    return count;
-}
-
-/// One row solved by itself. Calls `found(boundary, xi, surface)` for each place from left to right where the surface
-/// to the right differs from the one to the left.
-template <class Found>
-void solve_row(const Outline& outline, double zeta, Found&& found) {
-    std::array<Candidate, kMaxCandidates> candidates;
-    const std::size_t count = candidates_on_row(outline, zeta, candidates);
-    int surface = kNoSurface;
-    double left = -kInfinity;
-    Boundary left_boundary{Boundary::Kind::left_end, 0};
-    for (std::size_t i = 0; i <= count; ++i) {
-        const double right = i < count ? candidates[i].xi : kInfinity;
-        const bool outside = (i == 0 || i == count) && !outline.direct;  // of a bounded solid: nothing is there
-        if (outside && surface != kNoSurface) found(left_boundary, left, surface = kNoSurface);
-        if (!outside && right - left > kSliver) {
-            double middle = 0.5 * (left + right);
-            if (!std::isfinite(left))
-                middle = std::isfinite(right) ? right - 1.0 - std::abs(right) : 0.0;
-            else if (!std::isfinite(right))
-                middle = left + 1.0 + std::abs(left);
-            const int here = surface_at(outline.solid, middle, zeta);
-            if (here != surface) found(left_boundary, left, here);
-            surface = here;
+    // Faster for a few: counting those below each takes no branch that cannot be foreseen.
+    std::array<unsigned, kFew> below;
+    std::fill_n(below.begin(), keys.size(), 0U);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        unsigned count = 0;
+        for (std::size_t j = 0; j < i; ++j) {
+            const unsigned is_below = keys[j].zeta <= keys[i].zeta ? 1 : 0;
+            count += is_below, below[j] += 1 - is_below;
         }
-        if (i < count) {
-            left = right;
-            left_boundary = candidates[i].boundary;
-        }
+        below[i] = count;
     }
-    if (surface != kNoSurface) found(Boundary{Boundary::Kind::right_end, 0}, kInfinity, kNoSurface);
+    for (std::size_t i = 0; i < keys.size(); ++i) sorted[below[i]] = keys[i].zeta;
+    return sorted;
 }
 
-void find_bands(const RowGrid& rows, Outline& out) {
+/// `convex_rows`: the solid is an ellipsoid whole in front of the near plane, by its anchored forms.
+void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
+    std::optional<ConvexRows> convex;
+    if (convex_rows) convex.emplace(out);
+    RowOrder order;
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
-    auto& keys = out.key_points;
-    std::sort(keys.begin(), keys.end(), [](const KeyPoint& a, const KeyPoint& b) { return a.zeta < b.zeta; });
-    double from = z_low;
+    const double rows_per_unit = 1.0 / rows.step;
+    const auto row_at = [&](double zeta) { return (z_high - zeta) * rows_per_unit - 0.5; };
+    double from = z_low, from_row = row_at(from);
     const auto close_band = [&](double to) {
         to = std::min(to, z_high);
         if (!(to > from)) return;
+        constexpr double kRounding = 1e-9;
+        const double to_row = row_at(to);
         // A band without a row of the grid needs no answer.
-        const double first_row = std::ceil((rows.top - (to + out.solid.z0)) / rows.step - 0.5 - 1e-9);
-        const double last_row = std::floor((rows.top - (from + out.solid.z0)) / rows.step - 0.5 + 1e-9);
-        if (last_row >= first_row) {
-            const auto first = static_cast<std::uint32_t>(out.boundaries.size());
-            solve_row(out, 0.5 * (from + to), [&](Boundary boundary, double, int surface) {
-                out.boundaries.push_back(boundary);
-                out.surfaces.push_back(static_cast<std::int8_t>(surface));
-            });
-            const auto count = static_cast<std::uint32_t>(out.boundaries.size()) - first;
+        const int last_row = static_cast<int>(from_row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
+        if (last_row >= to_row - kRounding) {
+            const auto first = static_cast<std::uint32_t>(out.changes.size());
+            const double zeta = 0.5 * (from + to);
+            if (!convex || !convex->tell(zeta, order)) solve_row(out, zeta, order);
+            out.changes.insert(out.changes.end(), order.begin(), order.end());
+            const auto count = static_cast<std::uint32_t>(out.changes.size()) - first;
             if (count > 0) out.bands.push_back({from, to, first, count});
         }
-        from = to;
+        from = to, from_row = to_row;
     };
-    for (const KeyPoint& key : keys)
-        if (key.zeta > from) close_band(key.zeta);
+    std::array<double, kMaxKeyPoints> heights;
+    for (const double height : sort_heights(out.key_points, heights))
+        if (height > from) close_band(height);
     close_band(kInfinity);
     if (out.bands.empty()) {
         out.zeta_from = 1.0, out.zeta_to = -1.0;
@@ -158,7 +88,7 @@ double intercept(const Outline& outline, const Boundary& boundary, double zeta) 
         case Boundary::Kind::falling:
             return falling_on_row(outline.curves[boundary.index], zeta);
         case Boundary::Kind::line:
-            return line_on_row(outline.lines[boundary.index].line, zeta);
+            return outline.lines[boundary.index].on_row(zeta);
         case Boundary::Kind::left_end:
             return -kInfinity;
         case Boundary::Kind::right_end:
@@ -169,16 +99,18 @@ double intercept(const Outline& outline, const Boundary& boundary, double zeta) 
 
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up) {
+    make_outline(solid, image_bounds(solid, eye, eye_from_scene), object, eye, eye_from_scene, rows, out, set_up);
+}
+
+void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
+                  const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up) {
     out.object = object;
     out.lines.clear();
     out.key_points.clear();
     out.bands.clear();
-    out.boundaries.clear();
-    out.surfaces.clear();
+    out.changes.clear();
     out.curves.clear();
-    out.curve_rows.clear();
 
-    const ImageBounds bounds = image_bounds(solid, eye, eye_from_scene);
     const bool near_plane = !bounds.in_front();
     out.near_u = bounds.near_u();
     out.far_u = bounds.farthest > 0.0 ? 1.0 / bounds.farthest : 0.0;
@@ -187,8 +119,7 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 
     out.direct = endless;
     out.limb_only = solid.planes.empty() && !near_plane && !endless;
-    out.curves.push_back(limb_on_rows(out.solid));
-    out.curve_rows.emplace_back();
+    out.curves.push_back({limb_on_rows(out.solid), {}, glm::dvec3(0.0)});
     if (out.limb_only) {
         const RowConic& limb = out.curves[0];
         // The quadric's silhouette spans the rows between its two extrema: b +- sqrt(b^2 - a c) of the row
@@ -197,30 +128,33 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         out.zeta_from = (-b + root) / a, out.zeta_to = (-b - root) / a;  // a < 0
         if (!(a < 0.0 && out.zeta_from < out.zeta_to)) out.zeta_from = 1.0, out.zeta_to = -1.0;
-        out.curve_rows[0] = {out.zeta_from, out.zeta_to};
+        out.curves[0].rows = {out.zeta_from, out.zeta_to};
         return;
     }
-    find_boundaries(out);
+    find_boundaries(solid, eye_from_scene, out);
     if (out.direct) {
         out.zeta_from = -kInfinity, out.zeta_to = kInfinity;
         return;
     }
     find_key_points(out);
-    find_bands(rows, out);
+    find_bands(rows, solid.ellipsoid && !near_plane && set_up == SetUp::anchored, out);
 }
 
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {
     int count = 0;
     bool open = false;
-    solve_row(outline, z - outline.solid.z0, [&](const Boundary&, double xi, int surface) {
-        const double x = outline.solid.x0 + xi;
+    RowOrder order;
+    const double zeta = z - outline.solid.z0;
+    solve_row(outline, zeta, order);
+    for (const Change& change : order) {
+        const double x = outline.solid.x0 + intercept(outline, change.boundary, zeta);
         if (open) {
             cuts[count].to = x;
             ++count;
         }
-        open = surface != kNoSurface && count < kMaxCuts;
-        if (open) cuts[count] = {x, x, surface};
-    });
+        open = change.surface != kNoSurface && count < kMaxCuts;
+        if (open) cuts[count] = {x, x, change.surface};
+    }
     return count;
 }
 
@@ -258,14 +192,14 @@ std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts) {
     double left = -kInfinity;
     int surface = kNoSurface;
     for (std::uint32_t i = band->first; i < band->first + band->count; ++i) {
-        double xi = intercept(outline, outline.boundaries[i], zeta);
+        double xi = intercept(outline, outline.changes[i].boundary, zeta);
         if (!(xi >= left)) {
             if (!(xi >= left - kDisorder)) return std::nullopt;
             xi = left;
         }
         if (surface != kNoSurface && xi > left && count < kMaxCuts) cuts[count++] = {x0 + left, x0 + xi, surface};
         left = xi;
-        surface = outline.surfaces[i];
+        surface = outline.changes[i].surface;
     }
     return count;
 }

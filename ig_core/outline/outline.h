@@ -8,11 +8,13 @@
 /// middle of every interval.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/image_forms.h"
 
 namespace quadrig {
@@ -24,20 +26,42 @@ struct Boundary {
     std::uint16_t index;  ///< into Outline::curves or Outline::lines
 };
 
+/// A place on a row where the visible surface changes.
+struct Change {
+    Boundary boundary;
+    std::int8_t surface;  ///< to its right
+};
+
 /// An edge: the image of the line in which two bounding planes meet, over the part that lies on the object.
 struct EdgeLine {
     glm::dvec3 line{0.0};  ///< X_ij of Eq 14
     double zeta_from = 0, zeta_to = 0;
+    std::uint8_t plane = 0, other_plane = 0;  ///< i and j, indices into EyeSolid::planes
+    [[nodiscard]] double on_row(double zeta) const { return -(line.y + line.z * zeta) / line.x; }
 };
 
 /// Rows on which a curve can be seen: from the first to the last of the key points on it.
 struct CurveRows {
     double zeta_from = std::numeric_limits<double>::infinity();
     double zeta_to = -std::numeric_limits<double>::infinity();
+    void add(double zeta) {
+        zeta_from = std::min(zeta_from, zeta);
+        zeta_to = std::max(zeta_to, zeta);
+    }
+    static constexpr double kRounding = 1e-9;
+    [[nodiscard]] bool may_hold(double zeta) const {
+        return zeta >= zeta_from - kRounding && zeta <= zeta_to + kRounding;
+    }
 };
 
-/// Rows from zeta_from to zeta_to that show boundaries first..first+count-1 (indices into Outline::boundaries), with
-/// Outline::surfaces[first + i] to the right of boundary i.
+/// A curve that can bound what is seen: the limb, or the intersection curve of a plane.
+struct Curve : RowConic {
+    CurveRows rows;                   ///< not of solids without end
+    glm::dvec3 visibility_line{0.0};  ///< V_j of the plane (Eq 12)
+};
+
+/// Rows from zeta_from to zeta_to that show changes first..first+count-1 (indices into Outline::changes), from left to
+/// right.
 struct ZBand {
     double zeta_from = 0, zeta_to = 0;
     std::uint32_t first = 0, count = 0;
@@ -52,13 +76,11 @@ struct KeyPoint {
 struct Outline {
     std::uint32_t object = 0;
     EyeSolid solid;
-    std::vector<RowConic> curves;       ///< [0] the limb, then the intersection curves of the planes that cut
-    std::vector<CurveRows> curve_rows;  ///< of each curve; not of solids without end
+    std::vector<Curve> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
     std::vector<EdgeLine> lines;
     std::vector<KeyPoint> key_points;
     std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
-    std::vector<Boundary> boundaries;
-    std::vector<std::int8_t> surfaces;
+    std::vector<Change> changes;
     bool limb_only = false;             ///< nothing but the limb: one band, one surface
     bool direct = false;                ///< every row is solved by itself: solids without end
     double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing
@@ -80,7 +102,10 @@ struct Cut {
 /// At most so many cuts on one row: each of the 19 planes and the quadric can show twice.
 inline constexpr int kMaxCuts = 40;
 
-/// Builds the outline. Reuses the memory of `out`.
+/// Builds the outline of a solid whose image_bounds from the same eye are known. Reuses the memory of `out`.
+void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
+                  const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
+/// The same with bounds of its own.
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
 

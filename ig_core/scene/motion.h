@@ -15,9 +15,9 @@ ScenePose pose_at(const Object& object, double seconds);
 /// The scene as it stands at a time, nothing in it moving any more. Textures are not moved (image model: drift).
 Scene scene_at(const Scene& scene, double seconds);
 
-/// The solid `at_rest`, its axes where the pose says. A rigid motion turns M, w and the planes' normals and carries the
-/// anchor along; all else is as it was, so nothing is lost to scene-sized numbers. Allocates nothing once `moved` has
-/// held a solid of as many planes.
+/// The solid `at_rest`, its axes where the pose says. A rigid motion turns M, w, the planes' normals and the edges, and
+/// carries the anchor along; all else is as it was, so nothing is lost to scene-sized numbers. Allocates nothing once
+/// `moved` has held a solid of as many planes and edges.
 void move(const Solid& at_rest, const ScenePose& pose, Solid& moved);
 
 }  // namespace quadrig

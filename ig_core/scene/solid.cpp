@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ig_core/scene/solid_edges.h"
+
 namespace quadrig {
 namespace {
 
@@ -326,6 +328,7 @@ Solid make_solid(const Object& object) {
     for (std::size_t j = 0; j < object.planes.size(); ++j) add_plane(object.planes[j], static_cast<int>(j) + 1, solid);
     if (!solid.ellipsoid) solid.radius = radius_between_planes(solid);
     solid.may_be_endless = endless(solid);
+    if (!solid.may_be_endless) solid.edges = edges_of(solid);
     return solid;
 }
 

@@ -8,6 +8,7 @@
 /// is scaled so that its largest entry is about 1 (a quadric means the same up to a positive factor).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "ig_core/geometry/symmetric.h"
@@ -23,6 +24,13 @@ struct SolidPlane {
     int surface = 0;
 };
 
+/// An edge: the part that lies on the solid of the line in which two of its planes meet. Its ends are on a third plane
+/// or on the quadric.
+struct SolidEdge {
+    glm::dvec3 from{0.0}, to{0.0};            ///< about the anchor
+    std::uint8_t plane = 0, other_plane = 0;  ///< indices into Solid::planes
+};
+
 struct Solid {
     ScenePoint anchor;
     Sym3 m;
@@ -33,6 +41,7 @@ struct Solid {
     /// |Q(centre)| for the limb function (image model: g), 0 for a quadric without a centre or through its own.
     double centre_value = 0.0;
     std::vector<SolidPlane> planes;
+    std::vector<SolidEdge> edges;  ///< of a solid that has an end
     /// The planes that the quadric consists of, if it is a half-space or the space between two parallel planes. Kept
     /// side positive, as a bounding plane's.
     std::vector<SolidPlane> flat_sides;

@@ -52,10 +52,12 @@ void outline_set_up(benchmark::State& state) {
     const std::vector<Solid> solids = solids_with_planes(static_cast<int>(state.range(0)));
     const View view{{}, glm::dmat3(1.0), ImagePlane::symmetric(kWidth, kHeight, {60})};
     const RowGrid rows = rows_of(view, 2);
+    std::vector<ImageBounds> bounds;  // known from select
+    for (const Solid& solid : solids) bounds.push_back(image_bounds(solid, view.eye, view.eye_from_scene));
     Outline outline;
     std::size_t next = 0;
     for (auto _ : state) {
-        make_outline(solids[next], 0, view.eye, view.eye_from_scene, rows, outline);
+        make_outline(solids[next], bounds[next], 0, view.eye, view.eye_from_scene, rows, outline);
         benchmark::DoNotOptimize(outline.zeta_to);
         next = (next + 1) % solids.size();
     }

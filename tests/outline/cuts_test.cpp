@@ -160,10 +160,9 @@ TEST_CASE("z-bands follow one another upwards, and together hold every row that 
         for (const ZBand& band : outline.bands) {
             REQUIRE(band.zeta_from >= below);
             REQUIRE(band.zeta_to > band.zeta_from);
-            REQUIRE(band.first + band.count <= outline.boundaries.size());
+            REQUIRE(band.first + band.count <= outline.changes.size());
             below = band.zeta_to;
         }
-        REQUIRE(outline.surfaces.size() == outline.boundaries.size());
         for (int r = 0; r < rows.count; ++r) {
             std::array<Cut, kMaxCuts> cuts;
             const int count = cuts_on_row_directly(outline, rows.z(r), cuts.data());

@@ -73,6 +73,7 @@ TEST_CASE("a hill travels with its planes") {
 }
 
 TEST_CASE("a solid moved is the solid of the object moved") {
+    int edges = 0;
     for (int trial = 0; trial < trials(500); ++trial) {
         Randomness random(trial);
         const auto some = [&](double size) {
@@ -87,6 +88,8 @@ TEST_CASE("a solid moved is the solid of the object moved") {
                 Ellipsoid{{some(3)}, {1, 2, random.between(0.1, 4)}, {{some(180).x}, {some(90).x}, {some(180).x}}};
         else
             object.shape = cylinder;
+        if (trial % 2 == 0)
+            object.planes.push_back({{random.between(-1, 1), 0.4, random.between(-1, 1), random.between(0, 1)}});
         const ScenePose pose{{some(1e4)}, eye_from_scene_rotation({{some(180).x}, {some(90).x}, {some(180).x}})};
         const Solid expected = make_solid(*placed(object, pose));
         Solid moved;
@@ -94,6 +97,13 @@ TEST_CASE("a solid moved is the solid of the object moved") {
         CHECK(moved.planes.size() == expected.planes.size());
         CHECK(moved.ellipsoid == expected.ellipsoid);
         CHECK(moved.radius == expected.radius);
+        REQUIRE(moved.edges.size() == expected.edges.size());
+        for (std::size_t j = 0; j < moved.edges.size(); ++j) {
+            CAPTURE(seed(), trial, j);
+            edges += 1;
+            CHECK(glm::distance(moved.edges[j].from, expected.edges[j].from) < 1e-6);
+            CHECK(glm::distance(moved.edges[j].to, expected.edges[j].to) < 1e-6);
+        }
         for (int i = 0; i < 20; ++i) {
             const ScenePoint p{pose.position.metres + some(6)};
             CAPTURE(seed(), trial, i);
@@ -106,4 +116,5 @@ TEST_CASE("a solid moved is the solid of the object moved") {
                       Approx(expected.plane_at(expected.planes[j], p)).margin(1e-8));
         }
     }
+    CHECK(edges > 20);
 }

@@ -116,4 +116,15 @@ Object random_object(Randomness& random, Kind kind, const glm::dvec3& centre, do
     return random_object(random, kind, centre, size, random.chance(0.9), planes);
 }
 
+Object cut_ball(double distance) {
+    Object ball;
+    ball.shape = Ellipsoid{{{0, 10, 0}}, {1, 1, 1}, {}};
+    for (const double side : {1.0, -1.0}) {
+        ball.planes.push_back({{side, 0, 0, distance}});
+        ball.planes.push_back({{0, side, 0, distance - 10 * side}});
+        ball.planes.push_back({{0, 0, side, distance}});
+    }
+    return ball;
+}
+
 }  // namespace quadrig::test

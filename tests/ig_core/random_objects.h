@@ -37,4 +37,7 @@ Kind random_kind(Randomness& random);
 /// Capped nine times in ten, with 0 to kMaxPlanes planes, mostly few.
 Object random_object(Randomness& random, Kind kind, const glm::dvec3& centre, double size);
 
+/// A ball of radius 1, 10 m north of the origin, cut by the faces of a cube at `distance` from its centre.
+Object cut_ball(double distance);
+
 }  // namespace quadrig::test

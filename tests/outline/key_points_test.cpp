@@ -23,17 +23,6 @@ Real discriminant(const Real33& m, Real zeta) {
 
 constexpr Real kOn = 1e-7L;
 
-Object cut_ball(double distance) {
-    Object ball;
-    ball.shape = Ellipsoid{{{0, 10, 0}}, {1, 1, 1}, {}};
-    for (const double side : {1.0, -1.0}) {
-        ball.planes.push_back({{side, 0, 0, distance}});
-        ball.planes.push_back({{0, side, 0, distance - 10 * side}});
-        ball.planes.push_back({{0, 0, side, distance}});
-    }
-    return ball;
-}
-
 Outline outline_from_origin(const Object& object, const glm::dmat3& eye_from_scene = glm::dmat3(1.0)) {
     Outline outline;
     make_outline(make_solid(object), 0, {}, eye_from_scene, {0.15, 0.3 / 480, 480}, outline);

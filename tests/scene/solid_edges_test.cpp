@@ -10,17 +10,6 @@ using namespace quadrig::test;
 
 namespace {
 
-Object cut_ball(double distance) {
-    Object ball;
-    ball.shape = Ellipsoid{{{0, 10, 0}}, {1, 1, 1}, {}};
-    for (const double side : {1.0, -1.0}) {
-        ball.planes.push_back({{side, 0, 0, distance}});
-        ball.planes.push_back({{0, side, 0, distance - 10 * side}});
-        ball.planes.push_back({{0, 0, side, distance}});
-    }
-    return ball;
-}
-
 /// A solid of size 1 or so that has an end; about its anchor, in extended precision, with unit normals.
 struct Case {
     Solid solid;

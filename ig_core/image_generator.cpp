@@ -83,6 +83,7 @@ struct ImageGenerator::Impl {
         Solid at_rest;
     };
     std::vector<Moving> moving;
+    std::vector<std::uint32_t> moved;        // indices of solids that are not as they were in the last frame
     std::vector<std::vector<Solid>> models;  // at rest, in their own axes
     FramePaints paints;
     std::vector<std::uint8_t> deck_opaque;
@@ -95,7 +96,9 @@ struct ImageGenerator::Impl {
 };
 
 void ImageGenerator::Impl::move_objects(const Environment& environment) {
+    moved.clear();
     const auto put = [&](std::size_t at, const Solid& at_rest, const ScenePose& pose) {
+        moved.push_back(static_cast<std::uint32_t>(at));
         move(at_rest, pose, solids[at]);
         spheres[at] = {solids[at].anchor.metres, solids[at].radius};
     };
@@ -264,7 +267,7 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     }
     const auto start = Clock::now();
     g.move_objects(environment);
-    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, view, quality, g.workers);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, g.moved, view, quality, g.workers);
     const auto selected = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
@@ -307,7 +310,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
     g.move_objects(environment);
-    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, view, quality, g.workers);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, g.moved, view, quality, g.workers);
     const PlaneSurfaces planes{horizontal_plane(view, 0.0), g.scene.ground.has_value(), {}};
     GroundTruth truth;
     truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));

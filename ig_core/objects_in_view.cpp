@@ -14,40 +14,65 @@ constexpr int kSelectBlock = 512;
 
 }  // namespace
 
-void ObjectsInView::select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres, const View& view,
-                           const Quality& quality, Workers& workers) {
+void ObjectsInView::select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres,
+                           std::span<const std::uint32_t> moved, const View& view, const Quality& quality,
+                           Workers& workers) {
     const ImagePlane& image = view.image;
+    const int lines = quality.lines_per_row();
+    const Sight sight{view.eye,       view.eye_from_scene,
+                      image,          {image.top, image.row_step / lines, image.height * lines},
+                      quality.set_up, quality.smallest_feature * image.row_step};
+    const bool same_view = sight == sight_, same_solids = moved.empty() && solids.size() == may_be_seen_.size();
+    sight_ = sight;
     solids_ = solids;
-    may_be_seen_.resize(solids.size());
-    bounds_.resize(solids.size());
+    if (!same_view || !same_solids) {
+        find_objects(spheres, view, workers);
+        sort_by_depth();
+        on_strips_.sort(strips_of(image), selected_.size(), [&](std::size_t place) {
+            const ImageBounds& b = bounds(static_cast<std::uint32_t>(place));
+            return strips_between(image, b.z_from, b.z_to);
+        });
+    }
+    keep_outlines(moved, same_view);
+}
+
+void ObjectsInView::find_objects(std::span<const BoundingSphere> spheres, const View& view, Workers& workers) {
+    may_be_seen_.resize(solids_.size());
+    bounds_.resize(solids_.size());
     const auto walls = walls_of(view);
     const auto task = [&](int block, int) {
         const std::size_t begin = static_cast<std::size_t>(block) * kSelectBlock;
-        for (std::size_t i = begin; i < std::min(solids.size(), begin + kSelectBlock); ++i) {
+        for (std::size_t i = begin; i < std::min(solids_.size(), begin + kSelectBlock); ++i) {
             may_be_seen_[i] = spheres[i].reaches_into(walls);
             if (may_be_seen_[i] == 0) continue;
-            bounds_[i] = image_bounds(solids[i], view.eye, view.eye_from_scene);
-            may_be_seen_[i] = may_show_on(image, bounds_[i]);
+            bounds_[i] = image_bounds(solids_[i], view.eye, view.eye_from_scene);
+            may_be_seen_[i] = may_show_on(view.image, bounds_[i]);
         }
     };
-    workers.run(static_cast<int>((solids.size() + kSelectBlock - 1) / kSelectBlock), std::ref(task));
+    workers.run(static_cast<int>((solids_.size() + kSelectBlock - 1) / kSelectBlock), std::ref(task));
     selected_.clear();
     for (std::uint32_t i = 0; i < may_be_seen_.size(); ++i)
         if (may_be_seen_[i] != 0) selected_.push_back(i);
-    sort_by_depth();
-    on_strips_.sort(strips_of(image), selected_.size(), [&](std::size_t place) {
-        const ImageBounds& b = bounds(static_cast<std::uint32_t>(place));
-        return strips_between(image, b.z_from, b.z_to);
-    });
+}
 
-    if (outlines_.size() < selected_.size()) outlines_.resize(selected_.size());
-    states_.assign(selected_.size(), OutlineState::none);
-    eye_ = view.eye;
-    eye_from_scene_ = view.eye_from_scene;
-    const int lines = quality.lines_per_row();
-    rows_ = {image.top, image.row_step / lines, image.height * lines};
-    set_up_ = quality.set_up;
-    least_height_ = quality.smallest_feature * image.row_step;
+void ObjectsInView::keep_outlines(std::span<const std::uint32_t> moved, bool same_view) {
+    if (slots_.size() < solids_.size()) slots_.resize(solids_.size(), kNoSlot);
+    if (!same_view) {
+        for (const std::uint32_t object : slotted_) slots_[object] = kNoSlot;
+        slotted_.clear();
+        states_.clear();
+    }
+    for (const std::uint32_t object : moved)
+        if (slots_[object] != kNoSlot) states_[slots_[object]] = OutlineState::none;
+    for (const std::uint32_t object : selected_) {
+        if (slots_[object] != kNoSlot) continue;
+        slots_[object] = static_cast<std::uint32_t>(slotted_.size());
+        slotted_.push_back(object);
+    }
+    states_.resize(slotted_.size(), OutlineState::none);
+    if (outlines_.size() < slotted_.size()) outlines_.resize(slotted_.size());
+    kept_ = 0;
+    kept_ = outlines_made();
 }
 
 void ObjectsInView::sort_by_depth() {
@@ -65,19 +90,19 @@ void ObjectsInView::sort_by_depth() {
 }
 
 std::size_t ObjectsInView::outlines_made() const {
-    return static_cast<std::size_t>(
-        std::count(states_.begin(), states_.begin() + static_cast<std::ptrdiff_t>(count()), OutlineState::made));
+    return static_cast<std::size_t>(std::count(states_.begin(), states_.end(), OutlineState::made)) - kept_;
 }
 
 const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseconds& time) {
-    Outline& outline = outlines_[place];
-    const std::atomic_ref state(states_[place]);
+    const std::uint32_t index = object(place), slot = slots_[index];
+    Outline& outline = outlines_[slot];
+    const std::atomic_ref state(states_[slot]);
     OutlineState seen = OutlineState::none;
     if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
         const auto start = std::chrono::steady_clock::now();
-        const std::uint32_t index = object(place);
-        make_outline(solids_[index], bounds_[index], index, eye_, eye_from_scene_, rows_, outline, set_up_);
-        if (outline.zeta_to - outline.zeta_from < least_height_) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
+        const Sight& s = sight_;
+        make_outline(solids_[index], bounds_[index], index, s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
+        if (outline.zeta_to - outline.zeta_from < s.least_height) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
         state.store(OutlineState::made, std::memory_order_release);
         time += std::chrono::steady_clock::now() - start;
         return outline;

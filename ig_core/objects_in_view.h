@@ -18,12 +18,13 @@ namespace quadrig {
 class ObjectsInView {
   public:
     /// Begins a frame: selects among the solids by their spheres, then by their own bounds. The solids have to stay as
-    /// they are until the next frame begins.
-    void select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres, const View& view,
-                const Quality& quality, Workers& workers);
+    /// they are until the next frame begins; `moved` has the indices of those that are not as they were in the last
+    /// one, the new ones too. As long as eye, image and quality stay the same, the others keep their outlines.
+    void select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres,
+                std::span<const std::uint32_t> moved, const View& view, const Quality& quality, Workers& workers);
 
     [[nodiscard]] std::size_t count() const { return front_to_back_.size(); }
-    /// How many of them have got an outline.
+    /// How many outlines have been made since the frame began.
     [[nodiscard]] std::size_t outlines_made() const;
 
     /// Places, front to back, of the objects that may show on a strip.
@@ -36,7 +37,21 @@ class ObjectsInView {
     const Outline& outline(std::uint32_t place, std::chrono::nanoseconds& time);
 
   private:
+    void find_objects(std::span<const BoundingSphere> spheres, const View& view, Workers& workers);
     void sort_by_depth();
+    /// Gives every object in view a slot, and empties the slots of what moved.
+    void keep_outlines(std::span<const std::uint32_t> moved, bool same_view);
+
+    /// What all outlines depend on.
+    struct Sight {
+        ScenePoint eye;
+        glm::dmat3 eye_from_scene{0.0};
+        ImagePlane image;
+        RowGrid rows;
+        SetUp set_up = SetUp::anchored;
+        double least_height = 0.0;  ///< image plane; what is lower is left out
+        friend bool operator==(const Sight&, const Sight&) = default;
+    };
 
     std::span<const Solid> solids_;
     std::vector<std::uint8_t> may_be_seen_;  // by object
@@ -45,14 +60,13 @@ class ObjectsInView {
     StripIndex on_strips_;
 
     enum class OutlineState : std::uint8_t { none, begun, made };
-    // One for each place; outlines only ever grow in number, to keep their memory.
-    std::vector<OutlineState> states_;
-    std::vector<Outline> outlines_;
-    ScenePoint eye_;
-    glm::dmat3 eye_from_scene_{1.0};
-    RowGrid rows_;
-    SetUp set_up_ = SetUp::anchored;
-    double least_height_ = 0.0;  // image plane; what is lower is left out
+    static constexpr std::uint32_t kNoSlot = ~0U;
+    std::vector<std::uint32_t> slots_;    // by object
+    std::vector<std::uint32_t> slotted_;  // objects, by slot
+    std::vector<OutlineState> states_;    // by slot
+    std::vector<Outline> outlines_;       // by slot; they only ever grow in number, to keep their memory
+    std::size_t kept_ = 0;                // outlines from frames before
+    Sight sight_;
 };
 
 }  // namespace quadrig

@@ -35,6 +35,7 @@ struct ImagePlane {
         return left + column * column_step;
     }  ///< column 0.5 is the first centre
     [[nodiscard]] double z(double row) const { return top - row * row_step; }
+    friend bool operator==(const ImagePlane&, const ImagePlane&) = default;
 };
 
 struct View {

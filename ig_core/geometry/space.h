@@ -18,6 +18,7 @@ struct EyeSpace {};
 template <class Space>
 struct Point {
     glm::dvec3 metres{0.0};
+    friend bool operator==(const Point&, const Point&) = default;
 };
 using ScenePoint = Point<SceneSpace>;
 using EyePoint = Point<EyeSpace>;

@@ -92,6 +92,7 @@ struct RowGrid {
     double top = 0, step = 1;
     int count = 0;
     [[nodiscard]] double z(int row) const { return top - (row + 0.5) * step; }
+    friend bool operator==(const RowGrid&, const RowGrid&) = default;
 };
 
 /// Part of a scan line on which one surface of an object is seen; x in image-plane units (distance 1), from < to.

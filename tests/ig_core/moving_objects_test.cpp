@@ -104,3 +104,45 @@ TEST_CASE(
         CHECK(render(generator, view, environment) == before);
     }
 }
+
+TEST_CASE("what a still eye keeps from frame to frame changes no bit, whatever else moves, comes, goes or turns") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(6); ++trial) {
+        Randomness random(trial);
+        Scene scene = painted_scene(random, 30);
+        set_moving(scene, random);
+        scene.models = {aircraft(random), aircraft(random)};
+        ImageGenerator busy(scene, 2);
+        View view = random_view(random, 96, 72);
+        Quality quality;
+        Environment environment;
+        std::vector<PlacedModel> bodies;
+        std::uint64_t kept = 0;
+        for (int frame = 0; frame < 20; ++frame) {
+            if (random.chance(0.4)) environment.seconds += 0.1;
+            if (random.chance(0.4)) {
+                bodies.assign(static_cast<std::size_t>(random.below(4)), {});
+                for (PlacedModel& body : bodies)
+                    body = {
+                        static_cast<std::uint32_t>(random.below(2)),
+                        {{view.eye.metres + 40.0 * random.direction()}, eye_from_scene_rotation(random.attitude())}};
+            }
+            if (random.chance(0.1)) view.eye.metres += random.vector(1);
+            if (random.chance(0.1)) view = random_view(random, 96, 72);
+            if (random.chance(0.1)) view.image = ImagePlane::symmetric(96, 72, {random.between(20, 100)});
+            if (random.chance(0.1)) quality.sub_scan_lines = 1 << random.below(4);
+            if (random.chance(0.1)) quality.smallest_feature = random.between(0, 4);
+            if (random.chance(0.1)) quality.set_up = random.chance(0.5) ? SetUp::textbook : SetUp::anchored;
+            environment.bodies = bodies;
+            CAPTURE(trial, frame);
+            ImageGenerator fresh(scene, 1);
+            REQUIRE(render(busy, view, environment, quality) == render(fresh, view, environment, quality));
+            kept += fresh.work().outlines - busy.work().outlines;
+            if (random.chance(0.1)) {
+                const GroundTruth truth = busy.ground_truth(view, quality, environment);
+                CHECK(truth.depth == fresh.ground_truth(view, quality, environment).depth);
+            }
+        }
+        CHECK(kept > 0);
+    }
+}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <ostream>
 #include <utility>
 
@@ -115,9 +114,8 @@ void write_quality_ladder(const QualityLadder& ladder, std::ostream& out) {
     const Quality usual;
     for (const QualityStep& step : ladder) {
         const Quality& q = step.quality;
-        out << "\n[[quality]]\nname = " << Quoted{step.name} << "\ncost = " << std::fixed << std::setprecision(2)
-            << step.cost << "\npsnr = " << std::setprecision(1) << step.psnr << std::defaultfloat
-            << std::setprecision(6) << "\nsub_scan_lines = " << q.sub_scan_lines << '\n';
+        out << "\n[[quality]]\nname = " << Quoted{step.name} << "\ncost = " << Exact{step.cost}
+            << "\npsnr = " << Exact{step.psnr} << "\nsub_scan_lines = " << q.sub_scan_lines << '\n';
         if (q.set_up != usual.set_up) out << "set_up = \"" << name_of(kSetUps, q.set_up) << "\"\n";
         if (q.distance != usual.distance) out << "distance = \"" << name_of(kDistanceRules, q.distance) << "\"\n";
         if (q.sine != usual.sine) out << "sine = \"" << name_of(kSines, q.sine) << "\"\n";

@@ -172,39 +172,38 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
     using V = hn::Vec<decltype(d)>;
     const auto stride = static_cast<float>(samples.stride);
     const int terms = term_count(in);
-    constexpr float kTurn2 = 4.0F * 9.8696044F;
-    V growth2[kMaxTextureTerms];
-    for (int i = 0; i < terms; ++i) growth2[i] = hn::Zero(d);
-    float least_facing = 1.0F, most_facing = -1.0F;
+    V step2 = hn::Zero(d), pixel2 = hn::Set(d, 1e30F);
+    bool lit = true, in_shadow = true;
     probe.steady = true;
     for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
         const V column = samples.column(d, i);
         const Vec3<V> ray = ray_at(d, in, column);
         const V length = vector_length(d, ray);
         const SurfacePoint<V> point = on_surface(d, in, column, ray);
-        const bool steady = changes_little(d, in, column, stride, point);
-        probe.steady = probe.steady && steady;
+        probe.steady = probe.steady && changes_little(d, in, column, stride, point);
         const V facing = dot(point.normal, splat(d, in.light->to_sun));
-        least_facing = std::min(least_facing, hn::GetLane(hn::MinOfLanes(d, facing)));
-        most_facing = std::max(most_facing, hn::GetLane(hn::MaxOfLanes(d, facing)));
+        lit = lit && hn::AllTrue(d, hn::Ge(facing, hn::Zero(d)));
+        in_shadow = in_shadow && hn::AllTrue(d, hn::Le(facing, hn::Zero(d)));
         PixelFootprint<V> f{{hn::Zero(d), hn::Zero(d)}, {hn::Zero(d), hn::Zero(d)}};
         if (terms > 0) f = pixel_footprint(d, in, point, ray, length);
-        const V step2 = hn::Max(f.column.x, f.column.y), pixel2 = hn::Min(f.pixel.x, f.pixel.y);
-        for (int t = 0; t < terms; ++t) {
-            const float w = in.paint->texture->terms[static_cast<std::size_t>(t)].turns_per_metre;
-            const V w2 = hn::Set(d, kTurn2 * w * w);
-            // A term that has been filtered away needs no samples, if that does not change from one to the next.
-            const auto counts = hn::Lt(hn::Mul(w2, pixel2), hn::Set(d, steady ? 48.0F : 1e30F));
-            growth2[t] = hn::Max(growth2[t], hn::IfThenElseZero(counts, hn::Mul(w2, step2)));
-        }
+        step2 = hn::Max(step2, hn::Max(f.column.x, f.column.y));
+        pixel2 = hn::Min(pixel2, hn::Min(f.pixel.x, f.pixel.y));
         probe.depth.store(d, point.depth, i);
         probe.setting.store(d, setting_at(d, in, length, point, f.pixel), i);
     }
+    const float most_step2 = hn::GetLane(hn::MaxOfLanes(d, step2)),
+                least_pixel2 = hn::GetLane(hn::MinOfLanes(d, pixel2));
+    const auto is_slow = [&](const FrameTexture::Term& term) {
+        const float w2 = 4.0F * 9.8696044F * term.turns_per_metre * term.turns_per_metre;
+        // A term that has been filtered away needs no samples, if that does not change from one to the next.
+        return w2 * most_step2 * stride * stride <= kLargestPhaseStep * kLargestPhaseStep ||
+               (probe.steady && w2 * least_pixel2 >= 48.0F);
+    };
     probe.slow_terms = 0;
-    const V most = hn::Set(d, kLargestPhaseStep * kLargestPhaseStep / (stride * stride));
-    while (probe.slow_terms < terms && hn::AllTrue(d, hn::Le(growth2[probe.slow_terms], most))) ++probe.slow_terms;
+    while (probe.slow_terms < terms && is_slow(in.paint->texture->terms[static_cast<std::size_t>(probe.slow_terms)]))
+        ++probe.slow_terms;
     // The shadow's border is a kink.
-    probe.steady = probe.steady && (least_facing >= 0.0F || most_facing <= 0.0F);
+    probe.steady = probe.steady && (lit || in_shadow);
     probe.smooth = probe.steady && probe.slow_terms == terms;
 }
 

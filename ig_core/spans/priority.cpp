@@ -111,36 +111,26 @@ class Crossings {
     bool points_, a_wins_ties_;
 };
 
-/// Most pairs lie clear of one another: bounds of 1/k on the first and last sub-scan line settle them. (What the lines
-/// between could add is less than a sub-scan line high.) The surface that spans more depth is bounded first.
+/// Most pairs lie clear of one another: on the first and the last sub-scan line the surface that spans more depth
+/// passes the other by, whose bounds of 1/k are known. (What the lines between could add is less than a sub-scan line
+/// high.)
 std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
     const auto spread = [](const Surface& s) { return s.near_u - s.far_u; };
-    const bool a_first = spread(a.surface) >= spread(b.surface);
-    const RowSpan &wide = a_first ? a : b, &narrow = a_first ? b : a;
-    double wide_least = wide.surface.near_u, wide_most = wide.surface.far_u;
-    double narrow_least = narrow.surface.near_u, narrow_most = narrow.surface.far_u;
-    bool any = false;
+    const bool a_is_wide = spread(a.surface) >= spread(b.surface);
+    const Surface &wide = a_is_wide ? a.surface : b.surface, &narrow = a_is_wide ? b.surface : a.surface;
     const auto lines = static_cast<std::size_t>(row.sub_lines);
-    const auto for_outer_lines = [&](const RowSpan& span, double& least, double& most) {
-        least = std::numeric_limits<double>::infinity(), most = -least;
-        for (std::size_t line = 0; line < lines; line += std::max<std::size_t>(1, lines - 1)) {
-            const double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
-            if (!(to - from > kLeastOverlap)) continue;
-            const auto bounds = DepthOnLine(span.surface, row, row.z[line]).between(from, to);
-            least = std::min(least, bounds.least), most = std::max(most, bounds.most);
-            any = true;
-        }
-    };
-    for_outer_lines(wide, wide_least, wide_most);
-    if (!any) return std::nullopt;
-    const auto settled = [&](double narrow_low, double narrow_high) -> std::optional<Priority> {
-        if (wide_least > (1.0 + kSameDepth) * narrow_high) return a_first ? Priority::front : Priority::behind;
-        if (narrow_low > (1.0 + kSameDepth) * wide_most) return a_first ? Priority::behind : Priority::front;
-        return std::nullopt;
-    };
-    if (const auto proven = settled(narrow.surface.far_u, narrow.surface.near_u)) return proven;
-    for_outer_lines(narrow, narrow_least, narrow_most);
-    return settled(narrow_least, narrow_most);
+    std::optional<bool> wide_in_front;
+    for (std::size_t line = 0; line < lines; line += std::max<std::size_t>(1, lines - 1)) {
+        const double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
+        if (!(to - from > kLeastOverlap)) continue;
+        const DepthOnLine depth(wide, row, row.z[line]);
+        const bool behind = depth.most(from, to) * (1.0 + kSameDepth) < narrow.far_u;
+        if (!behind && !(depth.least(from, to) > narrow.near_u * (1.0 + kSameDepth))) return std::nullopt;
+        if (wide_in_front && *wide_in_front == behind) return std::nullopt;
+        wide_in_front = !behind;
+    }
+    if (!wide_in_front) return std::nullopt;
+    return *wide_in_front == a_is_wide ? Priority::front : Priority::behind;
 }
 
 /// Planes without end pass in front of part of a light's disc wherever it stands close to them: they are compared where

@@ -39,36 +39,12 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
     d_[2] = e.limb.xx;
 }
 
-DepthOnLine::Sample DepthOnLine::at(double column) const {
-    if (plane_) return {u0_ + u1_ * column, u1_};
-    const double xi = xi0_ + step_ * column;
-    const double b = b0_ + b1_ * xi;
-    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), half_d_slope = 0.5 * d_[1] + xi * d_[2];
-    const double root = d > 0.0 ? std::sqrt(d) : 0.0;
-    const double root_slope = half_d_slope / root;
-    // u solves C u^2 + 2 B u + A = 0 (Eq 4 divided by k^2); of its two forms the one that does not cancel.
-    if (b <= 0.0) return {(root - b) * inverse_s_, step_ * (root_slope - b1_) * inverse_s_};
-    const double a = a_[0] + xi * (a_[1] + xi * a_[2]), a_slope = a_[1] + 2.0 * xi * a_[2];
-    const double sum = b + root, u = -a / sum;
-    return {u, step_ * (-a_slope - u * (b1_ + root_slope)) / sum};
-}
+double DepthOnLine::least(double from, double to) const { return std::min(value(from), value(to)); }
 
-double DepthOnLine::value(double column) const {
-    if (plane_) return u0_ + u1_ * column;
-    const double xi = xi0_ + step_ * column;
-    const double b = b0_ + b1_ * xi;
-    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), root = d > 0.0 ? std::sqrt(d) : 0.0;
-    if (b <= 0.0) return (root - b) * inverse_s_;
-    return -(a_[0] + xi * (a_[1] + xi * a_[2])) / (b + root);
-}
-
-DepthOnLine::Bounds DepthOnLine::between(double from, double to) const {
-    const double left = value(from), right = value(to);
-    const double least = std::min(left, right), most = std::max(left, right);
-    if (plane_) return {least, most};
+double DepthOnLine::most(double from, double to) const {
     const Sample middle = at(0.5 * (from + to));
     const double rise = 0.5 * (to - from) * std::abs(middle.slope);
-    return {least, std::isfinite(rise) ? std::max(most, middle.u + rise) : std::numeric_limits<double>::infinity()};
+    return std::isfinite(rise) ? middle.u + rise : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace quadrig

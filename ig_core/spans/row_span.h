@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "ig_core/outline/outline.h"
@@ -43,6 +44,7 @@ struct Surface {
 };
 
 struct RowSpan {
+    RowSpan() {}  // NOLINT(modernize-use-equals-default): ends are for their maker to set, not for zeroing first
     Surface surface;
     std::array<double, kMaxSubScanLines> from, to;  ///< columns; from >= to where the sub-scan line misses it
     int outer_from = 0, outer_to = 0;               ///< columns touched
@@ -77,10 +79,8 @@ class DepthOnLine {
     [[nodiscard]] double value(double column) const;
 
     /// Bounds of u over a stretch of the line: the lower end of its chord, and the tangent in its middle.
-    struct Bounds {
-        double least, most;
-    };
-    [[nodiscard]] Bounds between(double from, double to) const;
+    [[nodiscard]] double least(double from, double to) const;
+    [[nodiscard]] double most(double from, double to) const;
 
   private:
     bool plane_;
@@ -89,5 +89,28 @@ class DepthOnLine {
     double b0_ = 0, b1_ = 0, inverse_s_ = 1;  // B = b0 + b1 xi, C = s
     double a_[3] = {}, d_[3] = {};            // A and the limb form as polynomials in xi
 };
+
+inline DepthOnLine::Sample DepthOnLine::at(double column) const {
+    if (plane_) return {u0_ + u1_ * column, u1_};
+    const double xi = xi0_ + step_ * column;
+    const double b = b0_ + b1_ * xi;
+    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), half_d_slope = 0.5 * d_[1] + xi * d_[2];
+    const double root = d > 0.0 ? std::sqrt(d) : 0.0;
+    const double root_slope = half_d_slope / root;
+    // u solves C u^2 + 2 B u + A = 0 (Eq 4 divided by k^2); of its two forms the one that does not cancel.
+    if (b <= 0.0) return {(root - b) * inverse_s_, step_ * (root_slope - b1_) * inverse_s_};
+    const double a = a_[0] + xi * (a_[1] + xi * a_[2]), a_slope = a_[1] + 2.0 * xi * a_[2];
+    const double sum = b + root, u = -a / sum;
+    return {u, step_ * (-a_slope - u * (b1_ + root_slope)) / sum};
+}
+
+inline double DepthOnLine::value(double column) const {
+    if (plane_) return u0_ + u1_ * column;
+    const double xi = xi0_ + step_ * column;
+    const double b = b0_ + b1_ * xi;
+    const double d = d_[0] + xi * (d_[1] + xi * d_[2]), root = d > 0.0 ? std::sqrt(d) : 0.0;
+    if (b <= 0.0) return (root - b) * inverse_s_;
+    return -(a_[0] + xi * (a_[1] + xi * a_[2])) / (b + root);
+}
 
 }  // namespace quadrig

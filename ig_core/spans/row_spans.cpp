@@ -11,9 +11,12 @@ namespace {
 constexpr std::uint32_t kMarkingPriority = 0xFFFEFFFFu;  // less their places: the last in the file is seen
 constexpr std::uint32_t kGroundPriority = 0xFFFF0000u, kDeckPriority = 0xFFFF0001u, kSkyPriority = 0xFFFFFFFFu;
 
-void clear_ends(RowSpan& span) {
-    span.from.fill(0.0);
-    span.to.fill(0.0);
+/// The next of the row's spans, empty on all sub-scan lines.
+RowSpan& empty_span(const PixelRow& row, std::vector<RowSpan>& spans) {
+    RowSpan& span = spans.emplace_back();
+    std::fill_n(span.from.begin(), row.sub_lines, 0.0);
+    std::fill_n(span.to.begin(), row.sub_lines, 0.0);
+    return span;
 }
 
 /// Narrows the bounds of 1/k from the whole object's to the span's own, by its first and last sub-scan line. (What the
@@ -24,21 +27,22 @@ void bound_depth(const PixelRow& row, RowSpan& span) {
     std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
     while (!(span.from[first] < span.to[first])) ++first;
     while (!(span.from[last] < span.to[last])) --last;
-    auto bounds = DepthOnLine(span.surface, row, row.z[first]).between(span.from[first], span.to[first]);
-    if (last != first) {
-        const auto more = DepthOnLine(span.surface, row, row.z[last]).between(span.from[last], span.to[last]);
-        bounds = {std::min(bounds.least, more.least), std::max(bounds.most, more.most)};
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const std::size_t line : {first, last}) {
+        const DepthOnLine depth(span.surface, row, row.z[line]);
+        least = std::min(least, depth.least(span.from[line], span.to[line]));
+        most = std::max(most, depth.most(span.from[line], span.to[line]));
+        if (first == last) break;
     }
-    span.surface.near_u = std::min(span.surface.near_u, bounds.most);
-    span.surface.far_u = std::max(span.surface.far_u, bounds.least);
+    span.surface.near_u = std::min(span.surface.near_u, most);
+    span.surface.far_u = std::max(span.surface.far_u, least);
 }
 
 /// The part of a plane that lies in front of the eye and within edges, d' edge >= 0: a half-line of the row, clipped.
 void add_plane(const Surface& surface, std::span<const glm::dvec3> edges, const PixelRow& row,
                std::vector<RowSpan>& spans) {
-    RowSpan& span = spans.emplace_back();
+    RowSpan& span = empty_span(row, spans);
     span.surface = surface;
-    clear_ends(span);
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
         double from = 0.0, to = row.columns;
         const auto keep = [&](double at, double along_x) {
@@ -149,9 +153,7 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
                    !(spans[at].surface.surface == cuts[i].surface && spans[at].from[line] == spans[at].to[line]))
                 ++at;
             if (at == spans.size()) {
-                RowSpan& span = spans.emplace_back();
-                span.surface = surface_of(cuts[i].surface);
-                clear_ends(span);
+                empty_span(row, spans).surface = surface_of(cuts[i].surface);
             } else {
                 next = at + 1;
             }
@@ -198,11 +200,9 @@ void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> 
         surface.plane = planes.decks[i];
         add_plane(surface, {}, row, spans);
     }
-    RowSpan& sky = spans.emplace_back();
-    sky.surface = {};
+    RowSpan& sky = empty_span(row, spans);
     sky.surface.priority = kSkyPriority;
     sky.surface.near_u = 0.0;
-    clear_ends(sky);
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) sky.to[i] = row.columns;
     fit_columns(row, sky);
 }
@@ -219,13 +219,12 @@ void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, cons
 }
 
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans) {
-    RowSpan& span = spans.emplace_back();
+    RowSpan& span = empty_span(row, spans);
     span.surface.kind = Surface::Kind::light;
     span.surface.index = light.light;
     span.surface.light = &light;
     span.surface.plane = {light.u, 0.0, 0.0};
     span.surface.near_u = span.surface.far_u = light.u;
-    clear_ends(span);
     const double middle = row.column(light.x);
     const double line = 1.0 / row.sub_lines;  // rows
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {

@@ -1,6 +1,7 @@
 #include "ig_core/spans/sweep.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "ig_core/spans/row_spans.h"
 
@@ -24,11 +25,9 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
         if (priority == Priority::crossing) {
             for (RowSpan& piece : pieces_) {
                 if (piece.splits == 0 || !fit_columns(row, piece)) continue;
-                const Start start{piece.outer_from, static_cast<std::uint32_t>(spans.size())};
+                const Start start(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
                 spans.push_back(piece);
-                starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start,
-                                                [](const Start& a, const Start& b) { return a.column > b.column; }),
-                               start);
+                starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
             }
             return;
         }
@@ -81,18 +80,16 @@ void RowSweep::sweep(const PixelRow& row) {
     layers.clear();
     active_.clear();
     starts_.clear();
-    for (std::uint32_t i = 0; i < spans.size(); ++i) starts_.push_back({spans[i].outer_from, i});
-    std::sort(starts_.begin(), starts_.end(), [](const Start& a, const Start& b) {
-        return a.column != b.column ? a.column > b.column : a.span > b.span;
-    });
+    for (std::uint32_t i = 0; i < spans.size(); ++i) starts_.emplace_back(spans[i].outer_from, i);
+    std::sort(starts_.begin(), starts_.end(), std::greater<>());
     int column = 0;
     while (column < row.columns) {
-        while (!starts_.empty() && starts_.back().column <= column) {
-            const std::uint32_t index = starts_.back().span;
+        while (!starts_.empty() && starts_.back().column() <= column) {
+            const std::uint32_t index = starts_.back().span();
             starts_.pop_back();
             insert(index, row);
         }
-        int next = starts_.empty() ? row.columns : std::min(starts_.back().column, row.columns);
+        int next = starts_.empty() ? row.columns : std::min(starts_.back().column(), row.columns);
         for (const Active& span : active_) {
             if (span.inner_from > column) next = std::min(next, span.inner_from);
             if (span.inner_to > column) next = std::min(next, span.inner_to);

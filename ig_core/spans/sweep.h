@@ -29,11 +29,15 @@ class RowSweep {
     void insert(std::uint32_t index, const PixelRow& row);
     void emit(int from, int to);
 
+    /// Where a span begins: one number, which is quicker to sort than two.
     struct Start {
-        int column;
-        std::uint32_t span;
+        std::uint64_t key;
+        Start(int column, std::uint32_t span) : key(static_cast<std::uint64_t>(column) << 32 | span) {}
+        [[nodiscard]] int column() const { return static_cast<int>(key >> 32); }
+        [[nodiscard]] std::uint32_t span() const { return static_cast<std::uint32_t>(key); }
+        friend bool operator>(Start a, Start b) { return a.key > b.key; }
     };
-    std::vector<Start> starts_;  // by falling column: the next one is last
+    std::vector<Start> starts_;  // by falling column, then span: the next one is last
     /// A span that the sweep is over, with what every step asks of it.
     struct Active {
         std::uint32_t span;

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <array>
+
 #include "ig_core/shading/shade_job.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,15 +39,23 @@ struct Values {
 };
 using SampleValues = Values<kBlockIntervals + 4>;
 using BlockValues = Values<kBlockIntervals * kCoarseStride>;
+/// What a coarse block has of samples of the fine stride.
+constexpr std::size_t kFineCount = 4 * (kBlockIntervals + 1);
+using FineValues = Values<kFineCount>;
 
-/// Cubic through samples -1, 0, 1, 2 (Lagrange), at `share` of the way from sample 0 to sample 1.
+/// Weights of samples -1, 0, 1, 2 in the cubic through them (Lagrange), at `share` of the way from sample 0 to
+/// sample 1.
+constexpr std::array<float, 4> cubic_weights(float share) {
+    const float s = share, r = 1.0F - share;
+    return {-s * r * (1.0F + r) / 6.0F, r * (1.0F + s) * (1.0F + r) / 2.0F, s * (1.0F + s) * (1.0F + r) / 2.0F,
+            -s * r * (1.0F + s) / 6.0F};
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V cubic(D d, float share, V before, V here, V next, V after) {
-    const float s = share, r = 1.0F - share;
-    const V sides = hn::MulAdd(hn::Set(d, -s * r * (1.0F + r) / 6.0F), before,
-                               hn::Mul(hn::Set(d, -s * r * (1.0F + s) / 6.0F), after));
-    return hn::MulAdd(hn::Set(d, r * (1.0F + s) * (1.0F + r) / 2.0F), here,
-                      hn::MulAdd(hn::Set(d, s * (1.0F + s) * (1.0F + r) / 2.0F), next, sides));
+    const auto w = cubic_weights(share);
+    const V sides = hn::MulAdd(hn::Set(d, w[0]), before, hn::Mul(hn::Set(d, w[3]), after));
+    return hn::MulAdd(hn::Set(d, w[1]), here, hn::MulAdd(hn::Set(d, w[2]), next, sides));
 }
 
 /// Four values for every interval between samples; the first interval begins at samples[1].
@@ -75,14 +85,47 @@ struct BlockSamples {
         const float origin = static_cast<float>(first_column) - step - (stride == kCoarseStride ? 4.0F : 0.0F);
         return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, step), hn::Set(d, origin));
     }
-
-    HWY_INLINE void interpolate(const SampleValues& samples, BlockValues& block) const {
-        if (stride == kFineStride) return quarter_intervals(samples.at, kBlockIntervals, block.at);
-        alignas(64) float fine[4 * (kBlockIntervals + 1) + 5 * kShadePadding];
-        quarter_intervals(samples.at, kBlockIntervals + 1, fine);
-        quarter_intervals(fine, 4 * kBlockIntervals, block.at);
+    /// Columns of a coarse block's fine samples i and on: the first one stands before the block.
+    template <class D>
+    [[nodiscard]] HWY_INLINE hn::Vec<D> fine_column(D d, std::size_t i) const {
+        return BlockSamples{first_column, kFineStride}.column(d, i);
     }
 };
+
+/// From samples of the fine stride to a fine block's columns.
+HWY_INLINE void quarter_block(const SampleValues& samples, BlockValues& block) {
+    quarter_intervals(samples.at, kBlockIntervals, block.at);
+}
+/// The two steps from samples of the coarse stride to a coarse block's columns.
+HWY_INLINE void coarse_to_fine(const SampleValues& samples, FineValues& fine) {
+    quarter_intervals(samples.at, kBlockIntervals + 1, fine.at);
+}
+HWY_INLINE void fine_to_block(const FineValues& fine, BlockValues& block) {
+    quarter_intervals(fine.at, 4 * kBlockIntervals, block.at);
+}
+
+/// Weights of five neighbouring coarse samples in the values of the sixteen columns that stand by the middle ones.
+struct CoarseWeights {
+    alignas(64) float at[5][kCoarseStride] = {};
+    constexpr CoarseWeights() {
+        for (std::size_t c = 0; c < kCoarseStride; ++c) {
+            const std::size_t past = c + 4, interval = past / kCoarseStride;
+            const auto w = cubic_weights(static_cast<float>(past % kCoarseStride) / kCoarseStride);
+            for (std::size_t i = 0; i < w.size(); ++i) at[interval + i][c] = w[i];
+        }
+    }
+};
+inline constexpr CoarseWeights kCoarseWeights;
+
+/// Columns c and on of a coarse block in one step, which does without memory between two.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V between_coarse(D d, const SampleValues& samples, std::size_t c) {
+    const float* first = samples.at + c / kCoarseStride;
+    V sum = hn::Zero(d);
+    for (std::size_t i = 0; i < 5; ++i)
+        sum = hn::MulAdd(hn::Set(d, first[i]), hn::Load(d, kCoarseWeights.at[i] + c % kCoarseStride), sum);
+    return sum;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace quadrig

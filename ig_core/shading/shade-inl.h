@@ -7,92 +7,12 @@
 #define QUADRIG_SHADE_INL_H_
 #endif
 
-#include "ig_core/shading/interpolation-inl.h"
-#include "ig_core/shading/surface_point-inl.h"
-#include "ig_core/shading/texture-inl.h"
+#include "ig_core/shading/block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-HWY_INLINE int term_count(const ShadeInput& in) { return in.paint->texture == nullptr ? 0 : in.paint->texture->count; }
-
-/// What light, haze and filtering make of a surface point, whatever its texture.
-template <class V>
-struct Setting {
-    V lit;   ///< intensity without texture
-    V kept;  ///< what the haze lets through
-    Footprint<V> footprint;
-    V threshold;  ///< of translucence
-};
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const SurfacePoint<V>& point,
-                                 const Footprint<V>& footprint) {
-    const V one = hn::Set(d, 1.0F);
-    const FrameLight& light = *in.light;
-    const FramePaint& paint = *in.paint;
-    const V facing = hn::Max(hn::Zero(d), hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
-    const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
-    Setting<V> setting{lit, one, footprint, one};
-    if (light.haze) setting.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), hn::Set(d, light.extinction)));
-    if (paint.translucent)
-        setting.threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
-                                       hn::Sub(one, limb_share(d, in, point)), hn::Set(d, paint.threshold));
-    return setting;
-}
-
-/// Settings of many points.
-template <class Values>
-struct Settings {
-    Values lit, kept, footprint_x, footprint_y, threshold;
-
-    template <class D>
-    [[nodiscard]] HWY_INLINE Setting<hn::Vec<D>> load(D d, std::size_t i) const {
-        return {
-            lit.load(d, i), kept.load(d, i), {footprint_x.load(d, i), footprint_y.load(d, i)}, threshold.load(d, i)};
-    }
-    template <class D, class V = hn::Vec<D>>
-    HWY_INLINE void store(D d, const Setting<V>& setting, std::size_t i) {
-        lit.store(d, setting.lit, i), kept.store(d, setting.kept, i), threshold.store(d, setting.threshold, i);
-        footprint_x.store(d, setting.footprint.x, i), footprint_y.store(d, setting.footprint.y, i);
-    }
-};
-
-/// Sums of a texture's terms, of many points.
-template <class Values>
-struct SumsOfTerms {
-    Values x, y, lost_x, lost_y;
-
-    template <class D>
-    [[nodiscard]] HWY_INLINE TextureSums<hn::Vec<D>> load(D d, std::size_t i, bool lost_variance) const {
-        if (!lost_variance) return {x.load(d, i), y.load(d, i), hn::Zero(d), hn::Zero(d)};
-        return {x.load(d, i), y.load(d, i), lost_x.load(d, i), lost_y.load(d, i)};
-    }
-    template <class D, class V = hn::Vec<D>>
-    HWY_INLINE void store(D d, const TextureSums<V>& sums, std::size_t i) {
-        x.store(d, sums.x, i), y.store(d, sums.y, i), lost_x.store(d, sums.lost_x, i), lost_y.store(d, sums.lost_y, i);
-    }
-};
-
-/// What is known of a block of columns by interpolation: the sums of the texture's first terms, and, if it is steady,
-/// the setting.
-struct KnownBlock {
-    int terms = 0;
-    bool steady = false;
-    SumsOfTerms<BlockValues> sums;
-    Settings<BlockValues> setting;
-};
-
-/// Terms [first, last) of the surface's texture at a point, added to `sums`.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void add_terms_at(D d, const ShadeInput& in, int first, int last, const Vec3<V>& ray, V depth,
-                             const Footprint<V>& footprint, TextureSums<V>& sums) {
-    if (first >= last) return;
-    const Vec3<V> p{hn::Mul(depth, ray.x), hn::Mul(depth, ray.y), hn::Mul(depth, ray.z)};
-    add_terms(d, *in.paint->texture, in.paint->translucent, first, last, p, footprint.x, footprint.y, sums);
-}
 
 /// What varies over a surface.
 template <class V>
@@ -127,7 +47,7 @@ HWY_INLINE Appearance<V> appearance(D d, const ShadeInput& in, V column, const K
     const SurfacePoint<V> point = on_surface(d, in, column, ray);
     Setting<V> setting;
     if constexpr (kSteady) {
-        setting = known.setting.load(d, in_block);
+        setting = known.setting->between(d, in, in_block);
     } else {
         const V length = vector_length(d, ray);
         Footprint<V> footprint{hn::Zero(d), hn::Zero(d)};
@@ -157,56 +77,6 @@ HWY_INLINE void store(D d, const ShadeInput& in, const Appearance<V>& seen, Shad
     write(hn::Clamp(seen.edge, hn::Zero(d), hn::Set(d, 1.0F)), buffer.opacity);
 }
 
-/// A block's samples, and what they tell about it.
-struct BlockProbe {
-    SampleValues depth;
-    Settings<SampleValues> setting;
-    int slow_terms = 0;   ///< terms that may be interpolated between samples
-    bool steady = false;  ///< the setting may be, too
-    bool smooth = false;  ///< all of that
-};
-
-/// Samples are taken a little beyond a surface's ends too, where its equation goes on; near a limb nothing is steady.
-HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples, BlockProbe& probe) {
-    const hn::ScalableTag<float> d;
-    using V = hn::Vec<decltype(d)>;
-    const auto stride = static_cast<float>(samples.stride);
-    const int terms = term_count(in);
-    V step2 = hn::Zero(d), pixel2 = hn::Set(d, 1e30F);
-    bool lit = true, in_shadow = true;
-    probe.steady = true;
-    for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
-        const V column = samples.column(d, i);
-        const Vec3<V> ray = ray_at(d, in, column);
-        const V length = vector_length(d, ray);
-        const SurfacePoint<V> point = on_surface(d, in, column, ray);
-        probe.steady = probe.steady && changes_little(d, in, column, stride, point);
-        const V facing = dot(point.normal, splat(d, in.light->to_sun));
-        lit = lit && hn::AllTrue(d, hn::Ge(facing, hn::Zero(d)));
-        in_shadow = in_shadow && hn::AllTrue(d, hn::Le(facing, hn::Zero(d)));
-        PixelFootprint<V> f{{hn::Zero(d), hn::Zero(d)}, {hn::Zero(d), hn::Zero(d)}};
-        if (terms > 0) f = pixel_footprint(d, in, point, ray, length);
-        step2 = hn::Max(step2, hn::Max(f.column.x, f.column.y));
-        pixel2 = hn::Min(pixel2, hn::Min(f.pixel.x, f.pixel.y));
-        probe.depth.store(d, point.depth, i);
-        probe.setting.store(d, setting_at(d, in, length, point, f.pixel), i);
-    }
-    const float most_step2 = hn::GetLane(hn::MaxOfLanes(d, step2)),
-                least_pixel2 = hn::GetLane(hn::MinOfLanes(d, pixel2));
-    const auto is_slow = [&](const FrameTexture::Term& term) {
-        const float w2 = 4.0F * 9.8696044F * term.turns_per_metre * term.turns_per_metre;
-        // A term that has been filtered away needs no samples, if that does not change from one to the next.
-        return w2 * most_step2 * stride * stride <= kLargestPhaseStep * kLargestPhaseStep ||
-               (probe.steady && w2 * least_pixel2 >= 48.0F);
-    };
-    probe.slow_terms = 0;
-    while (probe.slow_terms < terms && is_slow(in.paint->texture->terms[static_cast<std::size_t>(probe.slow_terms)]))
-        ++probe.slow_terms;
-    // The shadow's border is a kink.
-    probe.steady = probe.steady && (lit || in_shadow);
-    probe.smooth = probe.steady && probe.slow_terms == terms;
-}
-
 /// A smooth block: its samples shaded, the rest interpolated.
 HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
                                std::size_t count, ShadeBuffer& buffer, std::size_t offset) {
@@ -223,45 +93,21 @@ HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples
         light.store(d, seen.light, i), kept.store(d, seen.kept, i), edge.store(d, seen.edge, i);
     }
     BlockValues all_light, all_kept, all_edge;
-    samples.interpolate(light, all_light);
-    if (in.light->haze) samples.interpolate(kept, all_kept);
-    if (in.paint->translucent) samples.interpolate(edge, all_edge);
+    const auto interpolate = [&](const SampleValues& from, BlockValues& to) HWY_ATTR {
+        if (samples.stride == kFineStride) return quarter_block(from, to);
+        FineValues fine;
+        coarse_to_fine(from, fine);
+        fine_to_block(fine, to);
+    };
+    interpolate(light, all_light);
+    if (in.light->haze) interpolate(kept, all_kept);
+    if (in.paint->translucent) interpolate(edge, all_edge);
     for (std::size_t i = 0; i < count; i += n) {
         Appearance<V> seen{all_light.load(d, i), hn::Set(d, 1.0F), hn::Set(d, 1.0F)};
         if (in.light->haze) seen.kept = all_kept.load(d, i);
         if (in.paint->translucent) seen.edge = all_edge.load(d, i);
         store(d, in, seen, buffer, offset + i);
     }
-}
-
-/// Interpolates what may be between the samples of a block.
-HWY_NOINLINE void interpolate_block(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
-                                    KnownBlock& known) {
-    const hn::ScalableTag<float> d;
-    using V = hn::Vec<decltype(d)>;
-    known.terms = probe.slow_terms;
-    known.steady = probe.steady;
-    if (known.terms > 0) {
-        SumsOfTerms<SampleValues> at;
-        for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
-            auto sums = TextureSums<V>::none(d);
-            add_terms_at(d, in, 0, known.terms, ray_at(d, in, samples.column(d, i)), probe.depth.load(d, i),
-                         probe.setting.load(d, i).footprint, sums);
-            at.store(d, sums, i);
-        }
-        samples.interpolate(at.x, known.sums.x);
-        samples.interpolate(at.y, known.sums.y);
-        if (in.paint->translucent) {
-            samples.interpolate(at.lost_x, known.sums.lost_x);
-            samples.interpolate(at.lost_y, known.sums.lost_y);
-        }
-    }
-    if (!known.steady) return;
-    samples.interpolate(probe.setting.lit, known.setting.lit);
-    samples.interpolate(probe.setting.footprint_x, known.setting.footprint_x);
-    samples.interpolate(probe.setting.footprint_y, known.setting.footprint_y);
-    if (in.light->haze) samples.interpolate(probe.setting.kept, known.setting.kept);
-    if (in.paint->translucent) samples.interpolate(probe.setting.threshold, known.setting.threshold);
 }
 
 /// One sample for every two pixels, taken where they meet.
@@ -294,39 +140,38 @@ HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer
     bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
+        std::size_t count = std::min(left, BlockSamples::columns(kFineStride));
+        known.terms = 0, known.setting = nullptr;
+        const auto steady = [&](std::size_t stride) HWY_ATTR {
+            probe_block(in, {i, stride}, probe);
+            return probe.steady;
+        };
+        const auto done_smoothly = [&](std::size_t stride) HWY_ATTR {
+            if (!probe.smooth(in, stride)) return false;
+            count = std::min(left, BlockSamples::columns(stride));
+            shade_smooth(in, {i, stride}, probe, count, buffer, offset + i);
+            i += count;
+            return true;
+        };
         // A block much shorter than its samples reach is as soon done without.
-        if (coarse && left >= BlockSamples::columns(kCoarseStride) / 2) {
-            const BlockSamples samples{i, kCoarseStride};
-            probe_block(in, samples, probe);
-            if (probe.smooth) {
-                const std::size_t count = std::min(left, BlockSamples::columns(kCoarseStride));
-                shade_smooth(in, samples, probe, count, buffer, offset + i);
-                i += count;
-                continue;
-            }
-        }
-        coarse = false;
-        known.terms = 0, known.steady = false;
-        const std::size_t count = std::min(left, BlockSamples::columns(kFineStride));
-        if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
-            const BlockSamples samples{i, kFineStride};
-            probe_block(in, samples, probe);
-            if (probe.smooth) {
-                coarse = true;
-                shade_smooth(in, samples, probe, count, buffer, offset + i);
-                i += count;
-                continue;
-            }
-            interpolate_block(in, samples, probe, known);
-            rough = probe.slow_terms == 0 && !probe.steady;
+        coarse = coarse && left >= BlockSamples::columns(kCoarseStride) / 2 && steady(kCoarseStride);
+        if (coarse) {
+            if (done_smoothly(kCoarseStride)) continue;
+            interpolate_coarse(in, {i, kCoarseStride}, probe, known);
+            count = std::min(left, BlockSamples::columns(kCoarseStride));
+        } else if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
+            coarse = steady(kFineStride);
+            if (done_smoothly(kFineStride)) continue;
+            interpolate_fine(in, {i, kFineStride}, probe, known);
+            rough = known.terms == 0 && !probe.steady;
         } else {
             rough = !in.smooth_stretches;
         }
         terms += count * static_cast<std::uint64_t>(term_count(in) - known.terms);
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
             const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);
-            const Appearance<V> seen =
-                known.steady ? appearance<true>(d, in, column, known, c) : appearance<false>(d, in, column, known, c);
+            const Appearance<V> seen = known.setting != nullptr ? appearance<true>(d, in, column, known, c)
+                                                                : appearance<false>(d, in, column, known, c);
             store(d, in, seen, buffer, offset + i + c);
         }
         i += count;

@@ -81,9 +81,11 @@ struct BlockSamples {
     /// left, since their second interpolation wants a neighbour too.
     template <class D>
     [[nodiscard]] HWY_INLINE hn::Vec<D> column(D d, std::size_t i) const {
-        const auto step = static_cast<float>(stride);
-        const float origin = static_cast<float>(first_column) - step - (stride == kCoarseStride ? 4.0F : 0.0F);
-        return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, step), hn::Set(d, origin));
+        return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, static_cast<float>(stride)),
+                          hn::Set(d, first()));
+    }
+    [[nodiscard]] float first() const {
+        return static_cast<float>(first_column) - static_cast<float>(stride) - (stride == kCoarseStride ? 4.0F : 0.0F);
     }
     /// Columns of a coarse block's fine samples i and on: the first one stands before the block.
     template <class D>

@@ -124,6 +124,14 @@ HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::si
     }
 }
 
+/// Whether a block is worth probing: on a quadric limbs have to be far.
+HWY_INLINE bool may_be_steady(const ShadeInput& in, const BlockSamples& samples) {
+    const auto stride = static_cast<float>(samples.stride);
+    return in.kind == ShadeInput::Kind::plane ||
+           (limb_is_far(in, samples.first(), stride) &&
+            limb_is_far(in, samples.first() + stride * (BlockSamples::kCount - 1), stride));
+}
+
 HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
     if (in.pairs) {
         shade_pairs(in, buffer, offset);
@@ -135,7 +143,7 @@ HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
     KnownBlock known;
     BlockProbe probe;
-    bool coarse = in.smooth_stretches && in.kind == ShadeInput::Kind::plane;  // worth trying the longer stride
+    bool coarse = in.smooth_stretches;  // worth trying the longer stride
     std::uint64_t terms = 0;
     bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
@@ -154,13 +162,15 @@ HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer
             return true;
         };
         // A block much shorter than its samples reach is as soon done without.
-        coarse = coarse && left >= BlockSamples::columns(kCoarseStride) / 2 && steady(kCoarseStride);
+        coarse = coarse && left >= BlockSamples::columns(kCoarseStride) / 2 && may_be_steady(in, {i, kCoarseStride}) &&
+                 steady(kCoarseStride);
         if (coarse) {
             if (done_smoothly(kCoarseStride)) continue;
             interpolate_coarse(in, {i, kCoarseStride}, probe, known);
             count = std::min(left, BlockSamples::columns(kCoarseStride));
         } else if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
-            coarse = steady(kFineStride);
+            steady(kFineStride);
+            coarse = true;
             if (done_smoothly(kFineStride)) continue;
             interpolate_fine(in, {i, kFineStride}, probe, known);
             rough = known.terms == 0 && !probe.steady;

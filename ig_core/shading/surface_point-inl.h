@@ -82,6 +82,15 @@ HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const
     return in.kind == ShadeInput::Kind::quadric ? on_quadric(d, in, column, ray) : on_plane(d, in, column, ray);
 }
 
+/// Largest share of L that its change from sample to sample may be, for a cubic to follow a quadric's normal.
+constexpr float kSteadyShare = 0.25F;
+/// Whether it is no more at a column of a quadric: quickly, before samples are taken.
+HWY_INLINE bool limb_is_far(const ShadeInput& in, float column, float stride) {
+    const float xi = in.xi + column * in.xi_step;
+    const float limb = in.limb[0] + xi * (in.limb[1] + xi * in.limb[2]), slope = in.limb[1] + 2.0F * xi * in.limb[2];
+    return stride * std::abs(in.xi_step * slope) < kSteadyShare * limb;
+}
+
 /// Whether depth and normal change so little over `stride` columns that a cubic follows them: to 3e-4. L bends a
 /// quadric's section with the row, so its share of change stands for the normal's.
 template <class D, class V = hn::Vec<D>>
@@ -94,10 +103,14 @@ HWY_INLINE bool changes_little(D d, const ShadeInput& in, V column, float stride
     const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
     const V limb_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.limb[2]), hn::Set(d, in.limb[1]));
     const float step = stride * std::abs(in.xi_step);
-    const auto steady = hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(limb_slope)), hn::Mul(hn::Set(d, 0.25F), point.limb));
-    const auto near =
-        hn::Lt(hn::Set(d, step * std::abs(in.b[1])), hn::Mul(hn::Set(d, 0.15F), hn::Sub(point.against, b)));
-    return hn::AllTrue(d, hn::And(hn::And(steady, near), hn::Le(b, hn::Zero(d))));
+    const auto steady =
+        hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(limb_slope)), hn::Mul(hn::Set(d, kSteadyShare), point.limb));
+    // Depth is C/(root - B) or (B + root)/-A (Eq 4), the one that does not cancel.
+    const V reach = hn::Set(d, 0.15F);
+    const auto near = hn::Lt(hn::Set(d, step * std::abs(in.b[1])), hn::Mul(reach, hn::Add(point.against, hn::Abs(b))));
+    const V a_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.a[2]), hn::Set(d, in.a[1]));
+    const auto by_a = hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(a_slope)), hn::Mul(reach, hn::Neg(point.a)));
+    return hn::AllTrue(d, hn::And(hn::And(steady, near), hn::Or(hn::Le(b, hn::Zero(d)), by_a)));
 }
 
 /// Mean squared growth of the arguments of the two sine families, per unit frequency (m^2), for a step of the surface

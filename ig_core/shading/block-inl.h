@@ -86,20 +86,14 @@ struct SumsOfTerms {
     HWY_INLINE void store(D d, const TextureSums<V>& sums, std::size_t i) {
         x.store(d, sums.x, i), y.store(d, sums.y, i), lost_x.store(d, sums.lost_x, i), lost_y.store(d, sums.lost_y, i);
     }
-    /// The same between samples, by a way of interpolation.
-    template <class Samples, class Way>
-    HWY_INLINE void between(const SumsOfTerms<Samples>& samples, bool lost_variance, Way&& interpolate) {
-        interpolate(samples.x, x), interpolate(samples.y, y);
-        if (lost_variance) interpolate(samples.lost_x, lost_x), interpolate(samples.lost_y, lost_y);
-    }
 };
 
-/// What is known of a block of columns by interpolation: the sums of the texture's first terms and, if it is a coarse
-/// block, the setting.
+/// What is known of a block of columns by interpolation: the sums of the texture's first terms and, if it is steady,
+/// the setting.
 struct KnownBlock {
     int terms = 0;
     SumsOfTerms<BlockValues> sums;
-    const Settings* setting = nullptr;  ///< of coarse samples
+    const Settings* setting = nullptr;  ///< of samples
 };
 
 /// Terms [first, last) of the surface's texture at a point, added to `sums`.
@@ -133,16 +127,13 @@ struct BlockProbe {
         }
         return count;
     }
-    [[nodiscard]] bool smooth(const ShadeInput& in, std::size_t stride) const {
-        return steady && slow_terms(in, stride) == term_count(in);
-    }
 };
 
 /// Samples are taken a little beyond a surface's ends too, where its equation goes on; near a limb nothing is steady.
 HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples, BlockProbe& probe) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
-    const auto stride = static_cast<float>(samples.stride);
+    constexpr auto stride = static_cast<float>(kCoarseStride);
     V step2 = hn::Zero(d), pixel2 = hn::Set(d, 1e30F);
     bool lit = true, in_shadow = true;
     probe.steady = true;
@@ -168,32 +159,16 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
     probe.steady = probe.steady && (lit || in_shadow);
 }
 
-/// Interpolates the slow terms of a fine block.
-HWY_NOINLINE void interpolate_fine(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
-                                   KnownBlock& known) {
-    const hn::ScalableTag<float> d;
-    known.terms = probe.slow_terms(in, kFineStride);
-    if (known.terms == 0) return;
-    SumsOfTerms<SampleValues> at;
-    for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
-        auto sums = TextureSums<hn::Vec<decltype(d)>>::none(d);
-        add_terms_at(d, in, 0, known.terms, ray_at(d, in, samples.column(d, i)), probe.depth.load(d, i),
-                     probe.setting.footprint(d, i), sums);
-        at.store(d, sums, i);
-    }
-    known.sums.between(at, in.paint->translucent, quarter_block);
-}
-
-/// Interpolates what may be in a steady block of coarse samples: the slow terms from fine samples between them.
-HWY_NOINLINE void interpolate_coarse(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
-                                     KnownBlock& known) {
+/// Interpolates what may be in a steady block: the slow terms from fine samples between its own.
+HWY_NOINLINE void interpolate_block(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
+                                    KnownBlock& known) {
     const hn::ScalableTag<float> d;
     known.setting = &probe.setting;
     known.terms = probe.slow_terms(in, kFineStride);
     if (known.terms == 0) return;
     FineValues footprint_x, footprint_y;
-    coarse_to_fine(probe.setting.footprint_x, footprint_x);
-    coarse_to_fine(probe.setting.footprint_y, footprint_y);
+    to_fine(probe.setting.footprint_x, footprint_x);
+    to_fine(probe.setting.footprint_y, footprint_y);
     SumsOfTerms<FineValues> at;
     for (std::size_t i = 0; i < kFineCount; i += hn::Lanes(d)) {
         const auto column = samples.fine_column(d, i);
@@ -203,7 +178,11 @@ HWY_NOINLINE void interpolate_coarse(const ShadeInput& in, const BlockSamples& s
                      {footprint_x.load(d, i), footprint_y.load(d, i)}, sums);
         at.store(d, sums, i);
     }
-    known.sums.between(at, in.paint->translucent, fine_to_block);
+    to_columns(at.x, known.sums.x);
+    to_columns(at.y, known.sums.y);
+    if (!in.paint->translucent) return;
+    to_columns(at.lost_x, known.sums.lost_x);
+    to_columns(at.lost_y, known.sums.lost_y);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -72,37 +72,32 @@ HWY_INLINE void quarter_intervals(const float* samples, std::size_t intervals, f
 
 /// Sixteen samples about a block.
 struct BlockSamples {
-    static constexpr std::size_t kCount = 16;
-    std::size_t first_column, stride;
+    static constexpr std::size_t kCount = 16, kColumns = kBlockIntervals * kCoarseStride;
+    std::size_t first_column;
 
-    static constexpr std::size_t columns(std::size_t stride) { return kBlockIntervals * stride; }
-
-    /// Columns of samples i and on. The first one stands a sample before the block; coarse ones four columns farther
-    /// left, since their second interpolation wants a neighbour too.
+    /// Columns of samples i and on. The first one stands more than an interval before the block: the fine samples
+    /// between them have to begin before it too.
     template <class D>
     [[nodiscard]] HWY_INLINE hn::Vec<D> column(D d, std::size_t i) const {
-        return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, static_cast<float>(stride)),
-                          hn::Set(d, first()));
+        return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, kCoarseStride), hn::Set(d, first()));
     }
     [[nodiscard]] float first() const {
-        return static_cast<float>(first_column) - static_cast<float>(stride) - (stride == kCoarseStride ? 4.0F : 0.0F);
+        return static_cast<float>(first_column) - static_cast<float>(kCoarseStride + kFineStride);
     }
-    /// Columns of a coarse block's fine samples i and on: the first one stands before the block.
+    [[nodiscard]] float last() const { return first() + static_cast<float>((kCount - 1) * kCoarseStride); }
+    /// Columns of fine samples i and on: the first one stands before the block.
     template <class D>
     [[nodiscard]] HWY_INLINE hn::Vec<D> fine_column(D d, std::size_t i) const {
-        return BlockSamples{first_column, kFineStride}.column(d, i);
+        return hn::MulAdd(hn::Iota(d, static_cast<float>(i)), hn::Set(d, kFineStride),
+                          hn::Set(d, static_cast<float>(first_column) - static_cast<float>(kFineStride)));
     }
 };
 
-/// From samples of the fine stride to a fine block's columns.
-HWY_INLINE void quarter_block(const SampleValues& samples, BlockValues& block) {
-    quarter_intervals(samples.at, kBlockIntervals, block.at);
-}
-/// The two steps from samples of the coarse stride to a coarse block's columns.
-HWY_INLINE void coarse_to_fine(const SampleValues& samples, FineValues& fine) {
+/// The two steps from samples to columns.
+HWY_INLINE void to_fine(const SampleValues& samples, FineValues& fine) {
     quarter_intervals(samples.at, kBlockIntervals + 1, fine.at);
 }
-HWY_INLINE void fine_to_block(const FineValues& fine, BlockValues& block) {
+HWY_INLINE void to_columns(const FineValues& fine, BlockValues& block) {
     quarter_intervals(fine.at, 4 * kBlockIntervals, block.at);
 }
 

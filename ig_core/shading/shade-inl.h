@@ -94,10 +94,9 @@ HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples
     }
     BlockValues all_light, all_kept, all_edge;
     const auto interpolate = [&](const SampleValues& from, BlockValues& to) HWY_ATTR {
-        if (samples.stride == kFineStride) return quarter_block(from, to);
         FineValues fine;
-        coarse_to_fine(from, fine);
-        fine_to_block(fine, to);
+        to_fine(from, fine);
+        to_columns(fine, to);
     };
     interpolate(light, all_light);
     if (in.light->haze) interpolate(kept, all_kept);
@@ -126,10 +125,8 @@ HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::si
 
 /// Whether a block is worth probing: on a quadric limbs have to be far.
 HWY_INLINE bool may_be_steady(const ShadeInput& in, const BlockSamples& samples) {
-    const auto stride = static_cast<float>(samples.stride);
     return in.kind == ShadeInput::Kind::plane ||
-           (limb_is_far(in, samples.first(), stride) &&
-            limb_is_far(in, samples.first() + stride * (BlockSamples::kCount - 1), stride));
+           (limb_is_far(in, samples.first(), kCoarseStride) && limb_is_far(in, samples.last(), kCoarseStride));
 }
 
 HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
@@ -143,39 +140,24 @@ HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer
     const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
     KnownBlock known;
     BlockProbe probe;
-    bool coarse = in.smooth_stretches;  // worth trying the longer stride
     std::uint64_t terms = 0;
-    bool rough = !in.smooth_stretches;  // the last block had nothing to interpolate
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
-        std::size_t count = std::min(left, BlockSamples::columns(kFineStride));
+        std::size_t count = std::min(left, BlockSamples::kColumns / 2);
         known.terms = 0, known.setting = nullptr;
-        const auto steady = [&](std::size_t stride) HWY_ATTR {
-            probe_block(in, {i, stride}, probe);
-            return probe.steady;
-        };
-        const auto done_smoothly = [&](std::size_t stride) HWY_ATTR {
-            if (!probe.smooth(in, stride)) return false;
-            count = std::min(left, BlockSamples::columns(stride));
-            shade_smooth(in, {i, stride}, probe, count, buffer, offset + i);
-            i += count;
-            return true;
-        };
+        const BlockSamples samples{i};
         // A block much shorter than its samples reach is as soon done without.
-        coarse = coarse && left >= BlockSamples::columns(kCoarseStride) / 2 && may_be_steady(in, {i, kCoarseStride}) &&
-                 steady(kCoarseStride);
-        if (coarse) {
-            if (done_smoothly(kCoarseStride)) continue;
-            interpolate_coarse(in, {i, kCoarseStride}, probe, known);
-            count = std::min(left, BlockSamples::columns(kCoarseStride));
-        } else if (!rough && left >= BlockSamples::columns(kFineStride) * 2 / 3) {
-            steady(kFineStride);
-            coarse = true;
-            if (done_smoothly(kFineStride)) continue;
-            interpolate_fine(in, {i, kFineStride}, probe, known);
-            rough = known.terms == 0 && !probe.steady;
-        } else {
-            rough = !in.smooth_stretches;
+        if (left >= BlockSamples::kColumns / 2 && in.smooth_stretches && may_be_steady(in, samples)) {
+            probe_block(in, samples, probe);
+            if (probe.steady) {
+                count = std::min(left, BlockSamples::kColumns);
+                if (probe.slow_terms(in, kCoarseStride) == term_count(in)) {
+                    shade_smooth(in, samples, probe, count, buffer, offset + i);
+                    i += count;
+                    continue;
+                }
+                interpolate_block(in, samples, probe, known);
+            }
         }
         terms += count * static_cast<std::uint64_t>(term_count(in) - known.terms);
         for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {

@@ -106,17 +106,20 @@ config::QualityLadder ladder_from(const std::vector<SettingResult>& results) {
         if (!gains && next->picture.psnr() > steps.back()->picture.psnr() - kLeastGain) steps.pop_back();
         steps.push_back(next);
     }
+    const auto whole = std::find_if(steps.begin(), steps.end(), [](const SettingResult* step) {
+        return pixels_across(step->quality.shading) <= 1.0;
+    });
     config::QualityLadder ladder;
     for (const SettingResult* step : steps) {
         const double psnr = step->picture.psnr();
         std::string name = std::to_string(std::lround(psnr)) + "dB";
         if (is_default(*step))
             name = "default";
-        else if (step == steps.front())
+        else if (step == *whole)
             name = "draft";
         else if (step == steps.back())
             name = "best";
-        else if (ladder.back().name == "default")
+        else if (!ladder.empty() && ladder.back().name == "default")
             name = "fine";
         ladder.push_back({name, step->quality, step->cost, psnr});
     }

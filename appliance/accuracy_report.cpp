@@ -96,10 +96,11 @@ nlohmann::ordered_json accuracy_json(const std::vector<SettingResult>& results) 
 }
 
 config::QualityLadder ladder_from(const std::vector<SettingResult>& results) {
-    constexpr double kLeastGain = 1.0;  // dB
+    constexpr double kLeastGain = 1.0, kLeastWorth = 38.0;  // dB
     std::vector<const SettingResult*> steps;
     for (const SettingResult* next : by_cost(results)) {
-        if ((!next->on_front || next->visibility.wrong > 0) && !is_default(*next)) continue;
+        const bool worth_having = next->on_front && next->visibility.wrong == 0 && next->picture.psnr() >= kLeastWorth;
+        if (!worth_having && !is_default(*next)) continue;
         const bool gains = steps.empty() || next->picture.psnr() >= steps.back()->picture.psnr() + kLeastGain;
         if (!gains && !is_default(*next)) continue;
         // The default stays; a neighbour below that is hardly worse gives way to it.

@@ -96,27 +96,31 @@ nlohmann::ordered_json accuracy_json(const std::vector<SettingResult>& results) 
 }
 
 config::QualityLadder ladder_from(const std::vector<SettingResult>& results) {
-    constexpr double kLeastGain = 1.0;  // dB
+    constexpr double kLeastGain = 1.0, kLeastWorth = 38.0;  // dB
     std::vector<const SettingResult*> steps;
     for (const SettingResult* next : by_cost(results)) {
-        if ((!next->on_front || next->visibility.wrong > 0) && !is_default(*next)) continue;
+        const bool worth_having = next->on_front && next->visibility.wrong == 0 && next->picture.psnr() >= kLeastWorth;
+        if (!worth_having && !is_default(*next)) continue;
         const bool gains = steps.empty() || next->picture.psnr() >= steps.back()->picture.psnr() + kLeastGain;
         if (!gains && !is_default(*next)) continue;
         // The default stays; a neighbour below that is hardly worse gives way to it.
         if (!gains && next->picture.psnr() > steps.back()->picture.psnr() - kLeastGain) steps.pop_back();
         steps.push_back(next);
     }
+    const auto whole = std::find_if(steps.begin(), steps.end(), [](const SettingResult* step) {
+        return pixels_across(step->quality.shading) <= 1.0;
+    });
     config::QualityLadder ladder;
     for (const SettingResult* step : steps) {
         const double psnr = step->picture.psnr();
         std::string name = std::to_string(std::lround(psnr)) + "dB";
         if (is_default(*step))
             name = "default";
-        else if (step == steps.front())
+        else if (step == *whole)
             name = "draft";
         else if (step == steps.back())
             name = "best";
-        else if (ladder.back().name == "default")
+        else if (!ladder.empty() && ladder.back().name == "default")
             name = "fine";
         ladder.push_back({name, step->quality, step->cost, psnr});
     }

@@ -37,9 +37,9 @@ nlohmann::ordered_json accuracy_json(const std::vector<SettingResult>& results);
 /// Frame time against PSNR, the Pareto front drawn through. SVG; `title` in plain text.
 std::string accuracy_plot(const std::vector<SettingResult>& results, const std::string& title);
 
-/// The ladder: of the front what names the right surface everywhere and differs by a decibel or more from its
-/// neighbours, and the default. The first step is
-/// called "draft", the default "default", the one above it "fine", the last one "best", any other by what it is worth
+/// The ladder: of the front what names the right surface everywhere, stands at 38 dB or better and differs by a
+/// decibel or more from its neighbours, and the default. The first step that is not drawn half as fine is called
+/// "draft", the default "default", the one above it "fine", the last one "best", any other by what it is worth
 /// ("43dB").
 config::QualityLadder ladder_from(const std::vector<SettingResult>& results);
 

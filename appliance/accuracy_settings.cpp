@@ -28,6 +28,10 @@ std::vector<Quality> accuracy_settings() {
             if (rate == ShadingRate::half) add(quality);
         }
     }
+    // What is drawn half as fine is there to be fast.
+    for (const int lines : {0, 2})
+        for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter})
+            for (const int terms : {0, 1}) add({.sub_scan_lines = lines, .terms_left_out = terms, .shading = rate});
     return settings;
 }
 

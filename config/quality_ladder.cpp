@@ -22,8 +22,11 @@ constexpr std::array<std::pair<SineMethod, std::string_view>, 4> kSines{{{SineMe
                                                                          {SineMethod::table, "table"},
                                                                          {SineMethod::library, "library"}}};
 
-constexpr std::array<std::pair<ShadingRate, std::string_view>, 3> kShadingRates{
-    {{ShadingRate::one, "one"}, {ShadingRate::half, "half"}, {ShadingRate::four, "four"}}};
+constexpr std::array<std::pair<ShadingRate, std::string_view>, 5> kShadingRates{{{ShadingRate::one, "one"},
+                                                                                 {ShadingRate::half, "half"},
+                                                                                 {ShadingRate::quarter, "quarter"},
+                                                                                 {ShadingRate::eighth, "eighth"},
+                                                                                 {ShadingRate::four, "four"}}};
 
 template <class Named, class Value>
 std::string_view name_of(const Named& names, Value value) {
@@ -160,8 +163,9 @@ std::string words_for(const Quality& q) {
     add(q.terms_left_out == 1, "one sine fewer");
     add(q.terms_left_out > 1, std::to_string(q.terms_left_out) + " sines fewer");
     add(!q.smooth_stretches, "nothing interpolated");
-    add(q.shading == ShadingRate::half, "every second pixel shaded");
-    add(q.shading == ShadingRate::four, "drawn twice as fine");
+    add(pixels_across(q.shading) > 1.0, "drawn half as fine");
+    add(pixels_across(q.shading) < 1.0, "drawn twice as fine");
+    add(shades_pairs(q.shading), "every second pixel shaded");
     if (q.smallest_feature > 0.0) {
         std::string pixels = std::to_string(q.smallest_feature);
         pixels.erase(pixels.find_last_not_of('0') + 1);

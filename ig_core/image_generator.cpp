@@ -192,11 +192,27 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
 
 namespace {
 
-/// The same window with four pixels for each.
-ImagePlane twice_as_fine(ImagePlane image) {
-    image.width *= 2, image.height *= 2;
-    image.column_step *= 0.5, image.row_step *= 0.5;
+/// The same window from its top left corner on by other pixels, `across` of the old ones wide and high; where that
+/// leaves a part of one over, the last ones reach beyond the window.
+ImagePlane by_pixels(double across, ImagePlane image) {
+    image.width = static_cast<int>(std::ceil(image.width / across));
+    image.height = static_cast<int>(std::ceil(image.height / across));
+    image.column_step *= across, image.row_step *= across;
     return image;
+}
+
+/// Puts the row that was drawn last where it belongs in the picture.
+void write_row(RowShader& shader, int row, ShadingRate rate, const FrameImage& image) {
+    const double across = pixels_across(rate);
+    if (across == 1.0)
+        shader.write(image.width, image.row(row));
+    else if (across > 1.0)
+        shader.write_doubled(image.width, image.row(2 * row),
+                             2 * row + 1 < image.height ? image.row(2 * row + 1) : nullptr);
+    else if (row % 2 == 0)
+        shader.keep_upper();
+    else
+        shader.write_averaged(image.width, image.row(row / 2));
 }
 
 PixelRow pixel_row(const View& view, int r, const Quality& quality) {
@@ -258,30 +274,25 @@ std::string_view ImageGenerator::simd_target() { return simd_target_name(); }
 StageTimes ImageGenerator::render(const View& asked, const Environment& environment, const Quality& quality_asked,
                                   const FrameImage& image) {
     Impl& g = *impl_;
-    const bool fine = quality_asked.shading == ShadingRate::four;
+    const double across = pixels_across(quality_asked.shading);
     View view = asked;
+    view.image = by_pixels(across, view.image);
     Quality quality = quality_asked;
-    if (fine) {
-        view.image = twice_as_fine(view.image);
-        quality.smallest_feature *= 2.0;
-    }
+    quality.smallest_feature /= across;
     const auto start = Clock::now();
     g.move_objects(environment);
     g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, g.moved, view, quality, g.workers);
     const auto selected = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
-    g.look_at_features(view, environment, asked.image.row_step);
+    // What is sampled at the middles of its rows only must not slip between them.
+    const bool may_slip = quality.sub_scan_lines == 0 && across > 1.0;
+    g.look_at_features(view, environment, may_slip ? view.image.row_step : asked.image.row_step);
     const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
                              quality};
     g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {
         own.shader.draw(frame, row, own.sweep);
-        if (!fine)
-            own.shader.write(image.width, image.row(row.row));
-        else if (row.row % 2 == 0)
-            own.shader.keep_upper();
-        else
-            own.shader.write_averaged(image.width, image.row(row.row / 2));
+        write_row(own.shader, row.row, quality.shading, image);
     });
 
     g.work = {};

@@ -30,10 +30,20 @@ enum class SineMethod : std::uint8_t {
 
 /// Shading samples of a surface per pixel.
 enum class ShadingRate : std::uint8_t {
-    half,  ///< two neighbours on a row share one
+    eighth,   ///< as a quarter, where two neighbours on a row share one too
+    quarter,  ///< the whole picture is drawn on a grid half as fine, visibility too, each sample filling 2 x 2 pixels
+    half,     ///< two neighbours on a row share one
     one,
     four  ///< the whole picture is drawn on a grid twice as fine, visibility too, and its light averaged
 };
+
+/// Pixels of the picture across one of the grid that it is drawn on: 2, 1 or 1/2.
+constexpr double pixels_across(ShadingRate rate) {
+    const bool coarse = rate == ShadingRate::eighth || rate == ShadingRate::quarter;
+    return coarse ? 2.0 : rate == ShadingRate::four ? 0.5 : 1.0;
+}
+/// Whether two neighbours on a row of that grid share a sample.
+constexpr bool shades_pairs(ShadingRate rate) { return rate == ShadingRate::eighth || rate == ShadingRate::half; }
 
 struct Quality {
     int sub_scan_lines =

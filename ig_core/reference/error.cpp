@@ -13,11 +13,14 @@ double srgb(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-std::array<double, 256> linear_light_of_codes() {
-    std::array<double, 256> table{};
-    for (std::size_t code = 0; code < table.size(); ++code)
-        table[code] = linear_light(static_cast<double>(code) / 255.0);
-    return table;
+const std::array<double, 256>& linear_light_of_codes() {
+    static const std::array<double, 256> light = [] {
+        std::array<double, 256> table{};
+        for (std::size_t code = 0; code < table.size(); ++code)
+            table[code] = linear_light(static_cast<double>(code) / 255.0);
+        return table;
+    }();
+    return light;
 }
 
 }  // namespace
@@ -54,8 +57,18 @@ PictureError& PictureError::operator+=(const PictureError& other) {
     return *this;
 }
 
+LinearImage linear_image(const FrameImage& picture) {
+    const std::array<double, 256>& light = linear_light_of_codes();
+    LinearImage linear{picture.width, picture.height, {}};
+    linear.rgb.reserve(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    for (int r = 0; r < picture.height; ++r)
+        for (int c = 0; c < picture.width; ++c)
+            for (int k = 0; k < 3; ++k) linear.rgb.push_back(static_cast<float>(light[picture.row(r)[4 * c + k]]));
+    return linear;
+}
+
 PictureError picture_error(const FrameImage& picture, const LinearImage& exact) {
-    static const std::array<double, 256> light = linear_light_of_codes();
+    const std::array<double, 256>& light = linear_light_of_codes();
     PictureError error;
     for (int r = 0; r < exact.height; ++r) {
         for (int c = 0; c < exact.width; ++c) {

@@ -40,6 +40,8 @@ struct PictureError {
     }
     PictureError& operator+=(const PictureError& other);
 };
+/// The light that a picture's codes stand for (IEC 61966-2-1).
+LinearImage linear_image(const FrameImage& picture);
 /// `picture` has the exact one's size.
 PictureError picture_error(const FrameImage& picture, const LinearImage& exact);
 

@@ -141,20 +141,27 @@ void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     average(upper.blue, lower.blue);
 }
 
+/// Samples i to i + Lanes(d) of a row, as pixels R G B 255.
+template <class D, class DI = hn::RebindToSigned<D>>
+HWY_INLINE hn::Vec<DI> packed_pixels(D d, const ShadeBuffer& row, std::size_t i) {
+    const DI di;
+    // To the nearest: the low bits of 1.5 * 2^23 + x are those of the integer. The others cancel in the sum.
+    const auto rounded = [&](const std::vector<float>& plane) HWY_ATTR {
+        return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, 12582912.0F)));
+    };
+    constexpr std::uint32_t kWhole = 0x4B400000U, kOpaque = 0xFF000000U;
+    constexpr auto kRest = static_cast<std::int32_t>(kOpaque - kWhole - (kWhole << 8) - (kWhole << 16));
+    const auto rg = hn::Add(rounded(row.red), hn::ShiftLeft<8>(rounded(row.green)));
+    return hn::Add(hn::Add(rg, hn::Set(di, kRest)), hn::ShiftLeft<16>(rounded(row.blue)));
+}
+
 void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgba) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
     const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
     alignas(64) std::int32_t pixels[64];
     for (std::size_t i = 0; i < total; i += n) {
-        // To the nearest: the low bits of 1.5 * 2^23 + x are those of the integer. The others cancel in the sum.
-        const auto rounded = [&](const std::vector<float>& plane) HWY_ATTR {
-            return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, 12582912.0F)));
-        };
-        constexpr std::uint32_t kWhole = 0x4B400000U, kOpaque = 0xFF000000U;
-        constexpr auto kRest = static_cast<std::int32_t>(kOpaque - kWhole - (kWhole << 8) - (kWhole << 16));
-        const auto rg = hn::Add(rounded(row.red), hn::ShiftLeft<8>(rounded(row.green)));
-        const auto packed = hn::Add(hn::Add(rg, hn::Set(di, kRest)), hn::ShiftLeft<16>(rounded(row.blue)));
+        const auto packed = packed_pixels(d, row, i);
         if (i + n <= total) {
             hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
         } else {
@@ -162,6 +169,24 @@ void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgb
             std::copy_n(reinterpret_cast<const std::uint8_t*>(pixels), 4 * (total - i), rgba + 4 * i);
         }
     }
+}
+
+void PackSrgb8Doubled(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT upper,
+                      std::uint8_t* HWY_RESTRICT lower) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
+    alignas(64) std::int32_t pixels[128];
+    for (std::size_t i = 0; i < total; i += 2 * n) {
+        const auto packed = packed_pixels(d, row, i / 2);
+        if (i + 2 * n <= total) {
+            hn::StoreInterleaved2(packed, packed, di, reinterpret_cast<std::int32_t*>(upper + 4 * i));
+        } else {
+            hn::StoreInterleaved2(packed, packed, di, pixels);
+            std::copy_n(reinterpret_cast<const std::uint8_t*>(pixels), 4 * (total - i), upper + 4 * i);
+        }
+    }
+    if (lower != nullptr) std::copy_n(upper, 4 * total, lower);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -177,6 +202,7 @@ HWY_EXPORT(CompositeWhole);
 HWY_EXPORT(CompositePartial);
 HWY_EXPORT(AverageSquares);
 HWY_EXPORT(PackSrgb8);
+HWY_EXPORT(PackSrgb8Doubled);
 
 void ShadeBuffer::resize(std::size_t count) {
     if (red.size() >= count) return;
@@ -203,6 +229,9 @@ void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
 }
 void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba) {
     HWY_DYNAMIC_DISPATCH(PackSrgb8)(row, count, rgba);
+}
+void pack_srgb8_doubled(const ShadeBuffer& row, int count, std::uint8_t* upper, std::uint8_t* lower) {
+    HWY_DYNAMIC_DISPATCH(PackSrgb8Doubled)(row, count, upper, lower);
 }
 std::string_view simd_target_name() {
     // The dispatcher takes the lowest set bit: better targets have smaller values.

@@ -89,7 +89,7 @@ ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const Row
     in.count = to - from;
     in.light = &frame.light;
     in.smooth_stretches = frame.quality.smooth_stretches;
-    in.pairs = frame.quality.shading == ShadingRate::half;
+    in.pairs = shades_pairs(frame.quality.shading);
     const double first = from + 0.5, x = row.x(first);
     in.least_column = static_cast<float>(range.from - first);
     in.most_column = static_cast<float>(range.to - first);
@@ -221,6 +221,10 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
 }
 
 void RowShader::write(int columns, std::uint8_t* rgba) const { pack_srgb8(row_, columns, rgba); }
+
+void RowShader::write_doubled(int columns, std::uint8_t* upper, std::uint8_t* lower) const {
+    pack_srgb8_doubled(row_, columns, upper, lower);
+}
 
 void RowShader::keep_upper() { std::swap(row_, upper_); }
 

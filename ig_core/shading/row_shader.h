@@ -32,6 +32,9 @@ class RowShader {
     void draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep);
     /// The row drawn last, as 8-bit sRGB.
     void write(int columns, std::uint8_t* rgba) const;
+    /// The row drawn last, as 8-bit sRGB of twice as many columns, into one or two rows of a picture; `lower` may be
+    /// null.
+    void write_doubled(int columns, std::uint8_t* upper, std::uint8_t* lower) const;
     /// Keeps the row drawn last as the upper of two, and averages those two over squares of 2 x 2 columns, as 8-bit
     /// sRGB of half as many columns.
     void keep_upper();

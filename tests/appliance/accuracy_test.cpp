@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "config/quality_ladder.h"
 #include "tests/appliance/files.h"
@@ -66,12 +67,36 @@ TEST_CASE("Speed and error of every setting come as table, JSON, plot and ladder
 
     const config::QualityLadder ladder = config::read_quality_ladder(out / "ladder.toml");
     CHECK(ladder[config::default_step(ladder)].quality == Quality{});
+    for (const config::QualityStep& step : ladder) CHECK((step.psnr >= 38.0 || step.name == "default"));
     const Outcome bench =
         quadrig_program({"bench", scene, "--path", cameras, "--size", "48x36", "--ladder", out / "ladder.toml",
                          "--quality", ladder.front().name, "--report", out / "report.json"});
     INFO(bench.err);
     CHECK(bench.status == 0);
     CHECK(report_of(out / "report.json")["quality"] == nlohmann::json({{ladder.front().name, 2}}));
+}
+
+TEST_CASE("Errors of large pictures can be told against the finest setting, which is then not measured itself") {
+    const std::string scene = scratch_file("scene.toml", kScene), cameras = scratch_file("cameras.json", kCameras),
+                      file = scratch_directory() / "a.json";
+    Arguments arguments{"accuracy", scene, "--path", cameras, "--size",          "64x48",
+                        "--runs",   "1",   "--json", file,    "--against-finest"};
+    const Outcome outcome = quadrig_program(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("errors against 8 sub-scan lines, drawn twice as fine"));
+    std::map<std::string, nlohmann::json> settings;
+    const auto json = nlohmann::json::parse(text_of(file));
+    for (const auto& setting : json["settings"]) settings[setting["setting"]] = setting;
+    CHECK_FALSE(settings.contains("8 sub-scan lines, drawn twice as fine"));
+    CHECK(settings["2 sub-scan lines"]["identity"]["wrong"] == 0);
+    CHECK(settings["2 sub-scan lines"]["depth"] == 0.0);
+    const auto psnr = [&](const char* name) { return settings[name]["picture"]["psnr_db"].get<double>(); };
+    CHECK(psnr("2 sub-scan lines, drawn twice as fine") > psnr("2 sub-scan lines"));
+    CHECK(psnr("2 sub-scan lines") > psnr("no antialiasing"));
+    CHECK(psnr("no antialiasing") > psnr("no antialiasing, drawn half as fine"));
+    arguments.insert(arguments.end(), {"--ladder", file});
+    CHECK(quadrig_program(arguments).status == 2);
 }
 
 TEST_CASE("Automatic quality goes up where frames are easily done, and down where they cannot be done in time") {
@@ -88,6 +113,7 @@ TEST_CASE("Automatic quality goes up where frames are easily done, and down wher
         return report_of(report)["quality"];
     };
     CHECK(qualities({"--size", "16x12", "--rate", "1", "--frames", "120"}).value("best", 0) > 20);
-    CHECK(qualities({"--size", "800x600", "--rate", "1000", "--frames", "6"}).value("draft", 0) == 5);
+    CHECK(qualities({"--size", "2000x1500", "--rate", "1000", "--frames", "6"})
+              .value(config::shipped_ladder().front().name, 0) == 5);
     CHECK(quadrig_program({"bench", scene, "--path", cameras, "--quality", "nice"}).status == 2);
 }

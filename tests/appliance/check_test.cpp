@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "config/quality_ladder.h"
 #include "tests/appliance/files.h"
 #include "tests/appliance/flights.h"
 #include "tests/appliance/program.h"
@@ -73,7 +74,8 @@ TEST_CASE("Mistakes in an appliance file are told with file, line and key") {
         {"fov = 180", "key 'fov'"},
         {"rate = 0", "key 'rate'"},
         {"threads = 1.5", "key 'threads'"},
-        {"quality = \"nice\"", "key 'quality': expected draft, "},
+        {"quality = \"nice\"",
+         "key 'quality': expected " + quadrig::config::quality_names(quadrig::config::shipped_ladder())},
         {"scene = \"\"", "key 'scene'"},
         {"colour = 3", "key 'colour': expected one of"},
         {"entity = [{ model = \"x-29\" }]", "key 'entity[0]': expected one of type, position, place, link, found none"},

@@ -25,10 +25,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 }  // namespace
 
-TEST_CASE("the ladder that ships rises in cost and in PSNR, from draft over the default to the best") {
+TEST_CASE(
+    "the ladder that ships rises in cost and in PSNR, from draft and what is coarser over the default to the best") {
     const QualityLadder& ladder = shipped_ladder();
     REQUIRE(ladder.size() >= 4);
-    CHECK(ladder.front().name == "draft");
+    const auto draft = step_named(ladder, "draft");
+    REQUIRE(draft);
     CHECK(ladder.back().name == "best");
     CHECK(ladder[default_step(ladder)].quality == Quality{});
     CHECK(ladder[default_step(ladder)].cost == 1.0);
@@ -38,6 +40,8 @@ TEST_CASE("the ladder that ships rises in cost and in PSNR, from draft over the 
         CHECK(ladder[i].cost > ladder[i - 1].cost);
         CHECK(ladder[i].psnr > ladder[i - 1].psnr);
     }
+    for (std::size_t i = 0; i < ladder.size(); ++i)
+        CHECK((pixels_across(ladder[i].quality.shading) > 1.0) == (i < *draft));
 }
 
 TEST_CASE("every key of a quality is read") {
@@ -73,6 +77,21 @@ TEST_CASE("a ladder that is written reads as it was") {
     }
 }
 
+TEST_CASE("every shading rate has a name that is read and written") {
+    constexpr std::array kNames{std::pair{ShadingRate::eighth, "eighth"}, std::pair{ShadingRate::quarter, "quarter"},
+                                std::pair{ShadingRate::half, "half"}, std::pair{ShadingRate::one, "one"},
+                                std::pair{ShadingRate::four, "four"}};
+    for (const auto& [rate, name] : kNames) {
+        CAPTURE(name);
+        const TemporaryFile file(replaced(kTwoSteps, "\"half\"", '"' + std::string(name) + '"'));
+        const QualityLadder ladder = read_quality_ladder(file.path());
+        CHECK(ladder[0].quality.shading == rate);
+        std::ostringstream text;
+        write_quality_ladder(ladder, text);
+        CHECK(read_quality_ladder(TemporaryFile(text.str()).path())[0].quality == ladder[0].quality);
+    }
+}
+
 TEST_CASE("a ladder's mistakes are refused with file, line, key and what was expected") {
     struct Mistake {
         const char *what, *by, *complaint;
@@ -82,7 +101,7 @@ TEST_CASE("a ladder's mistakes are refused with file, line, key and what was exp
               ":5: key 'quality[0].sub_scan_lines': expected 0, 1, 2, 4 or 8"},
              {"\"table\"", "\"cosine\"", "key 'quality[0].sine': expected polynomial or parabola or table or library"},
              {"false", "0", "key 'quality[0].smooth_stretches': expected true or false"},
-             {"\"half\"", "\"none\"", "key 'quality[0].shading': expected one or half or four"},
+             {"\"half\"", "\"none\"", "key 'quality[0].shading': expected one or half or quarter or eighth or four"},
              {"1.5", "-1", "key 'quality[0].smallest_feature': expected pixels in 0..64"},
              {"\"rough\"", "\"default\"", "key 'quality[1].name': expected a name of its own"},
              {"\"rough\"", "\"auto\"", "key 'quality[0].name'"},
@@ -101,4 +120,7 @@ TEST_CASE("a quality is told in words by what sets it apart") {
     quality.sub_scan_lines = 0, quality.sine = SineMethod::parabola, quality.terms_left_out = 1,
     quality.smallest_feature = 1.5;
     CHECK(words_for(quality) == "no antialiasing, parabola sine, one sine fewer, nothing below 1.5 pixels");
+    CHECK(words_for({.shading = ShadingRate::quarter}) == "2 sub-scan lines, drawn half as fine");
+    CHECK(words_for({.shading = ShadingRate::eighth}) ==
+          "2 sub-scan lines, drawn half as fine, every second pixel shaded");
 }

@@ -32,7 +32,7 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace {
 
 /// Allocations during each flight along the same path of views.
-std::vector<long> flights(const Scene& scene, int threads, int count) {
+std::vector<long> flights(const Scene& scene, int threads, int count, const Quality& quality = {4}) {
     ImageGenerator generator(scene, threads);
     std::vector<View> path;
     for (int i = 0; i < 12; ++i) {
@@ -44,7 +44,7 @@ std::vector<long> flights(const Scene& scene, int threads, int count) {
     std::vector<long> counts;
     for (int flight = 0; flight < count; ++flight) {
         const long before = allocations;
-        for (const View& view : path) generator.render(view, {1.0 * flight, Sun{}, 900.0}, {4}, image);
+        for (const View& view : path) generator.render(view, {1.0 * flight, Sun{}, 900.0}, quality, image);
         const long after = allocations;
         counts.push_back(after - before);
     }
@@ -60,6 +60,18 @@ TEST_CASE("once its views have been drawn, a frame allocates nothing") {
     CHECK(counts[0] > 0);  // or nothing was counted
     CHECK(counts[1] == 0);
     CHECK(counts[2] == 0);
+}
+
+TEST_CASE("nor does it on a grid half or twice as fine as the picture") {
+    Randomness random(3);
+    const Scene scene = painted_scene(random, 40);
+    for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter, ShadingRate::four}) {
+        // Rows of a strip pass their memory on to one another: it takes some flights until each has the most.
+        const auto counts = flights(scene, 1, 8, {.shading = rate});
+        CAPTURE(static_cast<int>(rate), counts);
+        CHECK(counts[0] > 0);
+        CHECK(std::all_of(counts.begin() + 5, counts.end(), [](long count) { return count == 0; }));
+    }
 }
 
 TEST_CASE("with several workers too, frames come to allocate nothing") {

@@ -9,17 +9,20 @@ using namespace quadrig::test;
 TEST_CASE("rows of an image may be padded, and may run from the bottom up") {
     Randomness random(9);
     ImageGenerator generator(painted_scene(random, 20), 2);
-    for (const auto& [width, height] : {std::pair{97, 53}, {1, 1}, {1, 40}, {40, 1}, {16, 16}, {15, 9}, {333, 8}}) {
+    const auto [width, height] =
+        GENERATE(table<int, int>({{97, 53}, {1, 1}, {1, 40}, {40, 1}, {16, 16}, {15, 9}, {333, 8}}));
+    for (const ShadingRate rate : {ShadingRate::one, ShadingRate::quarter, ShadingRate::eighth, ShadingRate::four}) {
         const View view = look({0, -80, 20}, {{0}, {-10}, {0}}, width, height, 60);
-        const Picture plain = render(generator, view);
+        const Quality quality{.shading = rate};
+        const Picture plain = render(generator, view, {}, quality);
         const auto row_bytes = static_cast<std::size_t>(4 * width + 20);
         for (const bool bottom_up : {false, true}) {
             std::vector<std::uint8_t> memory(row_bytes * static_cast<std::size_t>(height), 99);
             const auto step = static_cast<std::ptrdiff_t>(row_bytes);
             FrameImage image{memory.data(), width, height, step};
             if (bottom_up) image = {memory.data() + (height - 1) * step, width, height, -step};
-            generator.render(view, {}, {}, image);
-            CAPTURE(width, height, bottom_up);
+            generator.render(view, {}, quality, image);
+            CAPTURE(width, height, static_cast<int>(rate), bottom_up);
             for (int r = 0; r < height; ++r) {
                 REQUIRE(std::equal(image.row(r), image.row(r) + 4 * width, plain.at(0, r)));
                 const std::uint8_t* padding = image.row(r) + 4 * width;

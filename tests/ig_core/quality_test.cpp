@@ -81,6 +81,48 @@ TEST_CASE("drawn twice as fine, a pixel is the mean of the four that it would be
     }
 }
 
+TEST_CASE("drawn half as fine, every pixel of a picture half the size fills 2 x 2, however many there are") {
+    CAPTURE(seed());
+    constexpr std::array kRates{std::pair{ShadingRate::quarter, ShadingRate::one},
+                                std::pair{ShadingRate::eighth, ShadingRate::half}};
+    for (int trial = 0; trial < trials(8); ++trial) {
+        Randomness random(trial);
+        const Scene scene = painted_scene(random, 15);
+        const int width = 1 + random.below(110), height = trial % 4 == 3 ? 1 : 1 + random.below(80);
+        const View view = random_view(random, width, height);
+        View half = view;
+        half.image.width = width / 2 + width % 2, half.image.height = height / 2 + height % 2;
+        half.image.column_step *= 2, half.image.row_step *= 2;
+        for (const auto& [coarse, rate] : kRates)
+            for (const int lines : {0, 2}) {
+                const Picture small =
+                    render(scene, half, {}, {.sub_scan_lines = lines, .shading = rate, .smallest_feature = 1.5});
+                const Picture picture =
+                    render(scene, view, {}, {.sub_scan_lines = lines, .shading = coarse, .smallest_feature = 3});
+                CAPTURE(trial, width, height, lines);
+                for (int row = 0; row < height; ++row)
+                    for (int column = 0; column < width; ++column) {
+                        const std::uint8_t* pixel = picture.at(column, row);
+                        if (!std::equal(pixel, pixel + 4, small.at(column / 2, row / 2))) FAIL(column << ", " << row);
+                    }
+            }
+    }
+}
+
+TEST_CASE("ids and depth are of every pixel, by whatever grid the picture is drawn on") {
+    Randomness random(3);
+    ImageGenerator generator(painted_scene(random, 30), 2);
+    const View view = random_view(random, 97, 71);
+    const GroundTruth usual = generator.ground_truth(view, {.smallest_feature = 2});
+    for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter, ShadingRate::half, ShadingRate::four}) {
+        render(generator, view, {}, {.shading = rate});
+        const GroundTruth truth = generator.ground_truth(view, {.shading = rate, .smallest_feature = 2});
+        CHECK(truth.object_ids == usual.object_ids);
+        CHECK(truth.surface_ids == usual.surface_ids);
+        CHECK(truth.depth == usual.depth);
+    }
+}
+
 TEST_CASE("objects whose outlines are lower than the smallest feature are not drawn, all others are") {
     Scene scene;
     scene.sun.ambient = 1.0;
@@ -148,7 +190,8 @@ TEST_CASE("every quality gives the same bits for any number of threads") {
                                    {.sub_scan_lines = 8},
                                    {.distance = DistanceRule::interpolated},
                                    {.smooth_stretches = false}};
-    for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four}) qualities.push_back({.shading = rate});
+    for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter, ShadingRate::half, ShadingRate::four})
+        qualities.push_back({.shading = rate});
     for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library})
         qualities.push_back({.sine = sine});
     for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) qualities.push_back({.set_up = set_up});

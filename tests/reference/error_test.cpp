@@ -33,6 +33,19 @@ TEST_CASE("a picture that is the exact one's rounding differs by half a step at 
     CHECK(error.psnr() > 55);
 }
 
+TEST_CASE("the light that a picture's codes stand for is coded as they are") {
+    std::vector<std::uint8_t> codes(4 * 256, 255), again = codes;
+    for (std::size_t i = 0; i < 256; ++i)
+        for (std::size_t k = 0; k < 3; ++k) codes[4 * i + k] = static_cast<std::uint8_t>(k == 1 ? 255 - i : i);
+    // Two rows, from the bottom up.
+    const LinearImage light = linear_image({codes.data() + 4 * 128, 128, 2, -4 * 128});
+    REQUIRE(light.rgb.size() == 3 * 256);
+    to_srgb8(light, {again.data() + 4 * 128, 128, 2, -4 * 128});
+    CHECK(again == codes);
+    CHECK(light.rgb[3 * 127] == Approx(1.0));
+    CHECK(light.rgb[3 * 128] == 0.0F);
+}
+
 TEST_CASE("PSNR, mean and worst step are those of the one pixel that is off") {
     Pictures p(10, 10, 1.0F);  // white: code 255
     p.rgba[4 * 37 + 1] = 188;  // linear light 0.5029

@@ -60,6 +60,30 @@ TEST_CASE("light out of range is clamped, and nothing is written past the row") 
     }
 }
 
+TEST_CASE("doubled, every sample fills two columns of two rows, and nothing is written past them") {
+    for (const int count : {1, 2, 3, 8, 15, 16, 31, 32, 33, 66, 131}) {
+        const auto width = static_cast<std::size_t>(count), samples = (width + 1) / 2;
+        ShadeBuffer row;
+        row.resize(samples + kShadePadding);
+        for (std::size_t i = 0; i < samples; ++i)
+            row.red[i] = static_cast<float>(i) / 70, row.green[i] = 1 - row.red[i], row.blue[i] = 0.1F;
+        for (const std::int64_t target : simd_targets()) {
+            const SimdTarget held(target);
+            CAPTURE(count, hwy::TargetName(target));
+            std::vector<std::uint8_t> single(4 * samples), expected, upper(4 * width + 8, 77), lower = upper;
+            pack_srgb8(row, static_cast<int>(samples), single.data());
+            for (std::size_t i = 0; i < 4 * width; ++i) expected.push_back(single[i / 8 * 4 + i % 4]);
+            expected.insert(expected.end(), 8, 77);
+            pack_srgb8_doubled(row, count, upper.data(), lower.data());
+            CHECK(upper == expected);
+            CHECK(lower == expected);
+            std::fill(upper.begin(), upper.end(), 77);
+            pack_srgb8_doubled(row, count, upper.data(), nullptr);
+            CHECK(upper == expected);
+        }
+    }
+}
+
 TEST_CASE("every 8-bit code comes back from the light it stands for") {
     std::vector<float> light;
     for (int code = 0; code < 256; ++code)

@@ -39,10 +39,10 @@ Scene plain(double visibility = 0) {
 }
 
 /// Light that a light point adds to the picture, in pixels full of white.
-double light_in(const Scene& scene, const View& view) {
+double light_in(const Scene& scene, const View& view, const Quality& quality = {}) {
     Scene dark = scene;
     dark.lights.clear();
-    const Picture with = render(scene, view), without = render(dark, view);
+    const Picture with = render(scene, view, {}, quality), without = render(dark, view, {}, quality);
     double sum = 0;
     for (std::size_t i = 0; i < with.rgba.size(); i += 4)
         sum += linear_light(with.rgba[i]) - linear_light(without.rgba[i]);
@@ -121,6 +121,11 @@ TEST_CASE("a far light keeps its brightness wherever it stands between pixels, a
         const View view = look({0, 0, 0}, {}, 320, 240, 40);
         CAPTURE(trial, distance);
         CHECK(light_in(scene, view) == Approx(area).epsilon(0.02));
+        for (const ShadingRate rate : {ShadingRate::quarter, ShadingRate::four})
+            CHECK(light_in(scene, view, {.shading = rate}) == Approx(area).epsilon(0.02));
+        // Sampled at the centres of pixels only, it may be larger than that, but it is there.
+        for (const ShadingRate rate : {ShadingRate::quarter, ShadingRate::one})
+            CHECK(light_in(scene, view, {.sub_scan_lines = 0, .shading = rate}) > 0.9);
     }
 }
 

@@ -186,14 +186,11 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
 }
 
 bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
-    // A point kept in vain costs one more question; one lost costs a wrong picture.
-    constexpr double kTolerance = 1e-6;
     int kept = 1;
     for (int i = 0; i < e.plane_count; ++i) {
         const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
-        const double at = glm::dot(plane.normal, p);
-        const double left = at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye));
-        kept &= static_cast<int>(!(left < 0.0)) | static_cast<int>(&plane == own);  // no way out: none is foreseen
+        // No way out: none is foreseen.
+        kept &= static_cast<int>(!loses(plane, p.x, p.y, p.z)) | static_cast<int>(&plane == own);
     }
     return kept != 0;
 }

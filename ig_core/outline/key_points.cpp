@@ -48,13 +48,14 @@ class Candidates {
     }
     void add_kept(Outline& out) {
         const EyeSolid& e = out.solid;
-        std::fill_n(lost_.begin(), count_, 0.0);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i) count_lost(e.planes[i]);
+        std::fill_n(losses_.begin(), count_, 0.0);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i)
+            for (std::size_t c = 0; c < count_; ++c) losses_[c] += loses(e.planes[i], x_[c], y_[c], z_[c]) ? 1.0 : 0.0;
         for (std::size_t c = 0; c < count_; ++c) {
             const Place& place = places_[c];
             const bool lost_by_own =
-                lost_[c] == 1.0 && place.own != kNoPlane && lost(e.planes[place.own], x_[c], y_[c], z_[c]) != 0.0;
-            if (lost_[c] != 0.0 && !lost_by_own) continue;
+                losses_[c] == 1.0 && place.own != kNoPlane && loses(e.planes[place.own], x_[c], y_[c], z_[c]);
+            if (losses_[c] != 0.0 && !lost_by_own) continue;
             add_key_point(out, place.point, place.curve);
             out.curves[place.other_curve].rows.add(place.point.zeta);
         }
@@ -66,20 +67,10 @@ class Candidates {
         KeyPoint point;
         std::size_t curve, other_curve, own;
     };
-    // A point kept in vain costs one more question; one lost costs a wrong picture.
-    static double lost(const EyePlane& plane, double x, double y, double z) {
-        const double at = plane.normal.x * x + plane.normal.y * y + plane.normal.z * z;
-        const double left = at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye));
-        return left < 0.0 ? 1.0 : 0.0;
-    }
-    void count_lost(const EyePlane& plane) {
-        for (std::size_t c = 0; c < count_; ++c) lost_[c] += lost(plane, x_[c], y_[c], z_[c]);
-    }
-
     /// Two extrema of every curve, two contacts of every plane.
     static constexpr std::size_t kCapacity = 2 + 4 * kMaxEyePlanes;
     std::size_t count_ = 0;
-    std::array<double, kCapacity> x_, y_, z_, lost_;
+    std::array<double, kCapacity> x_, y_, z_, losses_;
     std::array<Place, kCapacity> places_;
 };
 

@@ -6,80 +6,38 @@
 /// else where its plane's chord does; beyond that the limb is kept or it is not, and a plane that faces away can end
 /// the quadric before the limb does.
 ///
-/// Objects differ and no branch is foreseen: the loops choose values rather than ways.
+/// Objects differ and no branch is foreseen: what can be chosen by value is, for some rows at a time (row_lanes.h);
+/// only the chain itself goes row by row.
 #pragma once
 
 #include <array>
+#include <span>
 
+#include "ig_core/outline/row_lanes.h"
 #include "ig_core/outline/row_order.h"
 
 namespace quadrig {
 
 class ConvexRows {
   public:
+    struct Told {
+        std::array<RowOrder, kRowsTogether> orders;
+        std::array<bool, kRowsTogether> sure;
+    };
+
     /// Expects all boundaries and the rows of each curve in place. Of the outline nothing is kept.
     explicit ConvexRows(const Outline& outline);
 
-    /// Tells a row between two key points; nothing is on one that the limb does not reach. False, with `order`
-    /// undefined, where one ray in the middle of an interval says otherwise, or where more than one chain may be meant:
-    /// solve_row then knows.
-    bool tell(double zeta, RowOrder& order) const;
+    /// Tells rows on which the solid is, at most kRowsTogether. Not sure, with the order undefined, where one ray in
+    /// the middle of an interval says otherwise, or where more than one chain may be meant: solve_row then knows.
+    void tell(std::span<const double> zeta, Told& told) const;
 
   private:
-    /// Where a conic holds a row: middle -+ the root of reach2.
-    struct Chord {
-        explicit Chord(const RowConic& conic);
-        Chord() = default;
-        std::array<double, 2> middle;
-        std::array<double, 3> reach2;
-        [[nodiscard]] double middle_at(double zeta) const { return middle[0] + zeta * middle[1]; }
-        [[nodiscard]] double reach2_at(double zeta) const { return reach2[0] + zeta * (reach2[1] + zeta * reach2[2]); }
-    };
-    struct Plane {
-        Chord chord;
-        double zeta_from, zeta_to;  // rows that may show it
-        glm::dvec3 depth;           // W
-        std::uint16_t curve;
-        int surface;
-        [[nodiscard]] double depth_at(double xi, double zeta) const { return depth.x * xi + depth.y + depth.z * zeta; }
-    };
-    using Planes = std::array<Plane, kMaxPlanes>;
-    struct Edge {
-        double zeta_from, zeta_to;
-        std::array<double, 2> xi;
-        std::uint8_t left_face, right_face;  // indices into facing_, or kNoFace
-        [[nodiscard]] double xi_at(double zeta) const { return xi[0] + zeta * xi[1]; }
-    };
-    /// The part of a row on which a face is seen.
-    struct Stretch {
-        double from, to;
-        std::uint8_t face, left_edge, right_edge;
-        bool bare_left, bare_right;  // nothing is seen beyond that end
-    };
-    struct Faces {
-        std::size_t count;
-        std::array<Stretch, kMaxPlanes> stretches;
-    };
-    struct Ends {
-        double from, to;
-        Boundary left, right;
-    };
+    /// The chain of one row, whose rays are yet to be checked. False where there is more than one, or none.
+    bool find_chain(ConvexLanes& rows, std::size_t row, RowOrder& order) const;
 
-    static constexpr std::uint8_t kNoFace = kMaxPlanes;
-    static constexpr int kQuadric = -1;
-    /// From left to right. False where edges or chords leave a doubt.
-    bool find_faces(double zeta, Faces& faces) const;
-    /// Where the quadric's seen side ends but for faces.
-    [[nodiscard]] Ends quadric_ends(double zeta, double limb_reach2) const;
-    /// Whether a ray meets that face, or the quadric, first.
-    [[nodiscard]] bool shows(int face, double xi, double zeta) const;
-
-    Chord limb_chord_;
-    Sym3 limb_;
-    std::size_t facing_count_ = 0, away_count_ = 0, edge_count_ = 1;
-    Planes facing_, away_;
-    std::array<Edge, 1 + kMaxPlanes*(kMaxPlanes - 1) / 2> edges_;  // [0] stands for none
-    bool edge_on_ = false;                                         // a plane holds the eye: W has no end
+    ConvexShape shape_;
+    bool edge_on_ = false;  // a plane holds the eye: W has no end
 };
 
 }  // namespace quadrig

@@ -81,23 +81,25 @@ inline double falling_on_row(const RowConic& conic, double zeta) {
     return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
 }
 
+/// What rows and samples ask for comes first, what only the set-up does last.
 struct EyeSolid {
-    SetUp set_up = SetUp::anchored;
-    double x0 = 0, z0 = 0;    ///< image point of the sheared Y axis
+    double x0 = 0, z0 = 0;  ///< image point of the sheared Y axis
+    glm::dvec3 v{0.0};      ///< gradient of Q/2 at the eye
+    double s = 0;           ///< Q at the eye
+    Sym3 m;
+    Sym3 limb;                ///< L
     ScenePoint scene_anchor;  ///< Solid's, or another on its axis
+    int plane_count = 0;
+    std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
+    std::array<EyePlane, kMaxEyePlanes> planes;
+    SetUp set_up = SetUp::anchored;
     glm::dvec3 anchor{0.0};
-    Sym3 m, adjugate;
+    Sym3 adjugate;
     double determinant = 0;
     glm::dvec3 w{0.0};
     double c = 0;
-    glm::dvec3 v{0.0};  ///< gradient of Q/2 at the eye
-    double s = 0;       ///< Q at the eye
-    Sym3 limb;          ///< L
     Sym3 tangent;  ///< planes l.p = 0 through the eye touch the quadric where l' tangent l = 0 (dual of the limb, over
                    ///< s)
-    std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
-    int plane_count = 0;
-    std::array<EyePlane, kMaxEyePlanes> planes;
 };
 
 /// Brings a solid into the sheared eye space of an eye point and attitude. `near_plane` and `infinity` add those
@@ -111,8 +113,14 @@ RowConic intersection_curve_on_rows(const EyeSolid& solid, const EyePlane& plane
 glm::dvec3 visibility_line(const EyeSolid& solid, const EyePlane& plane);
 glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const EyePlane& j);
 
-/// Whether a point of the sheared eye space is kept by every plane but `own`, to within a tolerance that errs towards
-/// keeping it.
+/// Whether a plane takes a point of the sheared eye space away. A point kept in vain costs one more question; one lost
+/// costs a wrong picture: the tolerance errs towards keeping it.
+inline bool loses(const EyePlane& plane, double x, double y, double z) {
+    constexpr double kTolerance = 1e-6;
+    const double at = plane.normal.x * x + plane.normal.y * y + plane.normal.z * z;
+    return at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye)) < 0.0;
+}
+/// Whether every plane but `own` keeps it.
 bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
 
 /// First surface that the ray through (xi, zeta) enters, as EyePlane::surface (0 the quadric), or kNoSurface;

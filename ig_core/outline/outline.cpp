@@ -18,64 +18,78 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxKeyPoints = 2 + 4 * kMaxEyePlanes + kMaxEyePlanes * (kMaxEyePlanes - 1);
 
 /// Heights of the key points, rising.
-std::span<const double> sort_heights(const std::vector<KeyPoint>& keys, std::array<double, kMaxKeyPoints>& heights) {
-    const std::span<double> sorted(heights.data(), keys.size());
+std::span<const double> sort_heights(const std::vector<KeyPoint>& keys, std::array<double, kMaxKeyPoints>& sorted) {
+    const std::size_t count = keys.size();
     constexpr std::size_t kFew = 32;
-    if (keys.size() > kFew) {
+    if (count > kFew) {
         std::transform(keys.begin(), keys.end(), sorted.begin(), [](const KeyPoint& key) { return key.zeta; });
-        std::sort(sorted.begin(), sorted.end());
-        return sorted;
+        std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
+        return {sorted.data(), count};
     }
     // Faster for a few: counting those below each takes no branch that cannot be foreseen.
+    std::array<double, kFew> heights;
     std::array<unsigned, kFew> below;
-    std::fill_n(below.begin(), keys.size(), 0U);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        unsigned count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double height = heights[i] = keys[i].zeta;
+        unsigned below_it = 0;
         for (std::size_t j = 0; j < i; ++j) {
-            const unsigned is_below = keys[j].zeta <= keys[i].zeta ? 1 : 0;
-            count += is_below, below[j] += 1 - is_below;
+            const unsigned is_below = heights[j] <= height ? 1 : 0;
+            below_it += is_below, below[j] += 1 - is_below;
         }
-        below[i] = count;
+        below[i] = below_it;
     }
-    for (std::size_t i = 0; i < keys.size(); ++i) sorted[below[i]] = keys[i].zeta;
-    return sorted;
+    for (std::size_t i = 0; i < count; ++i) sorted[below[i]] = heights[i];
+    return {sorted.data(), count};
 }
 
-/// `convex_rows`: the solid is an ellipsoid whole in front of the near plane, by its anchored forms.
-void find_bands(const RowGrid& rows, bool convex_rows, Outline& out) {
-    std::optional<ConvexRows> convex;
-    if (convex_rows) convex.emplace(out);
-    RowOrder order;
+/// Bands between key points, as yet without changes. One that holds no row of the grid needs no answer.
+void find_bands(const RowGrid& rows, Outline& out) {
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
     const double rows_per_unit = 1.0 / rows.step;
-    const auto row_at = [&](double zeta) { return (z_high - zeta) * rows_per_unit - 0.5; };
-    double from = z_low, from_row = row_at(from);
-    const auto close_band = [&](double to) {
-        to = std::min(to, z_high);
-        if (!(to > from)) return;
+    const auto holds_row = [&](double from, double to) {
         constexpr double kRounding = 1e-9;
-        const double to_row = row_at(to);
-        // A band without a row of the grid needs no answer.
+        const double from_row = (z_high - from) * rows_per_unit - 0.5, to_row = (z_high - to) * rows_per_unit - 0.5;
         const int last_row = static_cast<int>(from_row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
-        if (last_row >= to_row - kRounding) {
-            const auto first = static_cast<std::uint32_t>(out.changes.size());
-            const double zeta = 0.5 * (from + to);
-            if (!convex || !convex->tell(zeta, order)) solve_row(out, zeta, order);
-            out.changes.insert(out.changes.end(), order.begin(), order.end());
-            const auto count = static_cast<std::uint32_t>(out.changes.size()) - first;
-            if (count > 0) out.bands.push_back({from, to, first, count});
-        }
-        from = to, from_row = to_row;
+        return last_row >= to_row - kRounding;
     };
-    std::array<double, kMaxKeyPoints> heights;
-    for (const double height : sort_heights(out.key_points, heights))
-        if (height > from) close_band(height);
-    close_band(kInfinity);
-    if (out.bands.empty()) {
-        out.zeta_from = 1.0, out.zeta_to = -1.0;
-    } else {
-        out.zeta_from = out.bands.front().zeta_from, out.zeta_to = out.bands.back().zeta_to;
+    std::array<double, kMaxKeyPoints> memory;
+    const std::span<const double> heights = sort_heights(out.key_points, memory);
+    for (std::size_t i = 1; i < heights.size(); ++i) {
+        const double from = std::max(heights[i - 1], z_low), to = std::min(heights[i], z_high);
+        if (to > from && holds_row(from, to)) out.bands.push_back({from, to, 0, 0});
+    }
+}
+
+double middle(const ZBand& band) { return 0.5 * (band.zeta_from + band.zeta_to); }
+
+void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
+    band.first = static_cast<std::uint32_t>(out.changes.size());
+    for (const Change& change : order) out.changes.push_back(change);
+    band.count = static_cast<std::uint32_t>(out.changes.size()) - band.first;
+}
+
+/// What a row in the middle of each band shows.
+void solve_bands(Outline& out) {
+    RowOrder order;
+    for (ZBand& band : out.bands) {
+        solve_row(out, middle(band), order);
+        set_changes(order, band, out);
+    }
+}
+/// The same of an ellipsoid whole in front of the near plane, by its anchored forms.
+void tell_bands(Outline& out) {
+    const ConvexRows rows(out);
+    ConvexRows::Told told;
+    std::array<double, kRowsTogether> zeta;
+    for (std::size_t first = 0; first < out.bands.size(); first += kRowsTogether) {
+        const std::span bands = std::span(out.bands).subspan(first, std::min(out.bands.size() - first, kRowsTogether));
+        std::transform(bands.begin(), bands.end(), zeta.begin(), middle);
+        rows.tell({zeta.data(), bands.size()}, told);
+        for (std::size_t i = 0; i < bands.size(); ++i) {
+            if (!told.sure[i]) solve_row(out, zeta[i], told.orders[i]);
+            set_changes(told.orders[i], bands[i], out);
+        }
     }
 }
 
@@ -137,7 +151,17 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
         return;
     }
     find_key_points(out);
-    find_bands(rows, solid.ellipsoid && !near_plane && set_up == SetUp::anchored, out);
+    find_bands(rows, out);
+    if (solid.ellipsoid && !near_plane && set_up == SetUp::anchored)
+        tell_bands(out);
+    else
+        solve_bands(out);
+    std::erase_if(out.bands, [](const ZBand& band) { return band.count == 0; });
+    if (out.bands.empty()) {
+        out.zeta_from = 1.0, out.zeta_to = -1.0;
+    } else {
+        out.zeta_from = out.bands.front().zeta_from, out.zeta_to = out.bands.back().zeta_to;
+    }
 }
 
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {

@@ -69,8 +69,8 @@ struct ZBand {
 
 struct KeyPoint {
     enum class Kind : std::uint8_t { limb_extremum, curve_extremum, contact, edge_end };
-    double xi = 0, zeta = 0;
-    Kind kind = Kind::edge_end;
+    double xi, zeta;
+    Kind kind;
 };
 
 struct Outline {

@@ -88,7 +88,7 @@ void move(const Solid& at_rest, const ScenePose& pose, Solid& moved) {
     moved.w = scene_from_own * at_rest.w;
     moved.axis = scene_from_own * at_rest.axis;
     for (SolidPlane& plane : moved.planes) plane.normal = scene_from_own * plane.normal;
-    for (SolidEdge& edge : moved.edges) edge.from = scene_from_own * edge.from, edge.to = scene_from_own * edge.to;
+    for (SolidVertex& vertex : moved.vertices) vertex.at = scene_from_own * vertex.at;
     for (SolidPlane& plane : moved.flat_sides) plane.normal = scene_from_own * plane.normal;
 }
 

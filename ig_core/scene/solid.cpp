@@ -328,7 +328,7 @@ Solid make_solid(const Object& object) {
     for (std::size_t j = 0; j < object.planes.size(); ++j) add_plane(object.planes[j], static_cast<int>(j) + 1, solid);
     if (!solid.ellipsoid) solid.radius = radius_between_planes(solid);
     solid.may_be_endless = endless(solid);
-    if (!solid.may_be_endless) solid.edges = edges_of(solid);
+    if (!solid.may_be_endless) find_edges(solid);
     return solid;
 }
 

@@ -8,6 +8,7 @@
 /// is scaled so that its largest entry is about 1 (a quadric means the same up to a positive factor).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,10 +25,16 @@ struct SolidPlane {
     int surface = 0;
 };
 
-/// An edge: the part that lies on the solid of the line in which two of its planes meet. Its ends are on a third plane
-/// or on the quadric.
+/// An end of edges: where three planes meet on the solid, or two and the quadric.
+struct SolidVertex {
+    glm::dvec3 at{0.0};                    ///< about the anchor
+    std::array<std::uint8_t, 3> planes{};  ///< rising indices into Solid::planes; the last is kNoPlane on the quadric
+    static constexpr std::uint8_t kNoPlane = 255;
+};
+
+/// An edge: the part that lies on the solid of the line in which two of its planes meet.
 struct SolidEdge {
-    glm::dvec3 from{0.0}, to{0.0};            ///< about the anchor
+    std::uint8_t from = 0, to = 0;            ///< indices into Solid::vertices
     std::uint8_t plane = 0, other_plane = 0;  ///< indices into Solid::planes
 };
 
@@ -42,6 +49,7 @@ struct Solid {
     double centre_value = 0.0;
     std::vector<SolidPlane> planes;
     std::vector<SolidEdge> edges;  ///< of a solid that has an end
+    std::vector<SolidVertex> vertices;
     /// The planes that the quadric consists of, if it is a half-space or the space between two parallel planes. Kept
     /// side positive, as a bounding plane's.
     std::vector<SolidPlane> flat_sides;

@@ -10,15 +10,22 @@ namespace quadrig {
 namespace {
 
 constexpr Interval kNothing{1.0, 0.0};
+static_assert(kMaxPlanes * (kMaxPlanes - 1) < 256, "a vertex's index is a byte");
 
 /// A plane whose equation along a line is this small beside its terms holds the line.
 constexpr double kHolds = 1e-13;
 
+/// A part of a line and the planes it ends in.
+struct KeptPart {
+    Interval part;
+    std::uint8_t from_plane = SolidVertex::kNoPlane, to_plane = SolidVertex::kNoPlane;
+};
+
 /// The part of a line that planes other than i and j, in which it lies, keep.
-Interval keep_by_planes(std::span<const SolidPlane> planes, std::size_t i, std::size_t j, double size,
+KeptPart keep_by_planes(std::span<const SolidPlane> planes, std::size_t i, std::size_t j, double size,
                         const glm::dvec3& origin, const glm::dvec3& direction) {
     constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-    Interval kept{-kNoEnd, kNoEnd};
+    KeptPart kept{{-kNoEnd, kNoEnd}};
     for (std::size_t k = 0; k < planes.size(); ++k) {
         if (k == i || k == j) continue;
         const double slope = glm::dot(planes[k].normal, direction);
@@ -27,28 +34,46 @@ Interval keep_by_planes(std::span<const SolidPlane> planes, std::size_t i, std::
         if (slope * slope <= kHolds * kHolds * glm::dot(direction, direction) &&
             std::abs(here) <= kHolds * (std::abs(reach) + std::abs(planes[k].offset) + size))
             continue;
-        if (slope > 0.0)
-            kept.from = std::max(kept.from, -here / slope);
-        else if (slope < 0.0)
-            kept.to = std::min(kept.to, -here / slope);
-        else if (here <= 0.0)
-            return kNothing;
+        // What has no face is no plane to end in.
+        const auto plane = planes[k].surface == 0 ? SolidVertex::kNoPlane : static_cast<std::uint8_t>(k);
+        const double crossed = -here / slope;
+        if (slope > 0.0 && crossed > kept.part.from)
+            kept.part.from = crossed, kept.from_plane = plane;
+        else if (slope < 0.0 && crossed < kept.part.to)
+            kept.part.to = crossed, kept.to_plane = plane;
+        else if (slope == 0.0 && here <= 0.0)
+            return {kNothing};
     }
     return kept;
 }
 
+SolidVertex vertex(const glm::dvec3& at, std::size_t i, std::size_t j, std::uint8_t third) {
+    SolidVertex result{at, {static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(i), third}};
+    std::sort(result.planes.begin(), result.planes.end());
+    return result;
+}
+
+std::uint8_t add_vertex(const SolidVertex& vertex, std::vector<SolidVertex>& vertices) {
+    const bool shared = vertex.planes[2] != SolidVertex::kNoPlane;
+    const auto same = std::find_if(vertices.begin(), vertices.end(),
+                                   [&](const SolidVertex& known) { return shared && known.planes == vertex.planes; });
+    const auto index = static_cast<std::uint8_t>(same - vertices.begin());
+    if (same == vertices.end()) vertices.push_back(vertex);
+    return index;
+}
+
 }  // namespace
 
-std::optional<SolidEdge> edge_between(const Solid& solid, std::span<const SolidPlane> planes, std::size_t i,
-                                      std::size_t j) {
+std::optional<EdgeEnds> edge_between(const Solid& solid, std::span<const SolidPlane> planes, std::size_t i,
+                                     std::size_t j) {
     const SolidPlane &a = planes[i], &b = planes[j];
     const glm::dvec3 direction = glm::cross(a.normal, b.normal);
     const double length2 = glm::dot(direction, direction);
     if (!(length2 > 0.0)) return std::nullopt;
     const glm::dvec3 origin = glm::cross(direction, a.offset * b.normal - b.offset * a.normal) / length2;
     const double size = std::isfinite(solid.radius) ? solid.radius : 0.0;
-    const Interval kept = keep_by_planes(planes, i, j, size, origin, direction);
-    if (!(kept.from < kept.to)) return std::nullopt;
+    const KeptPart kept = keep_by_planes(planes, i, j, size, origin, direction);
+    if (!(kept.part.from < kept.part.to)) return std::nullopt;
 
     const glm::dvec3 moment = glm::cross(origin, direction);
     std::array<Interval, 2> pieces;
@@ -58,22 +83,24 @@ std::optional<SolidEdge> edge_between(const Solid& solid, std::span<const SolidP
                        line_discriminant(solid, {direction, moment}), kFlat * length2, pieces);
     for (int n = 0; n < count; ++n) {
         const Interval& piece = pieces[static_cast<std::size_t>(n)];
-        const double from = std::max(kept.from, piece.from), to = std::min(kept.to, piece.to);
-        if (from < to)
-            return SolidEdge{origin + from * direction, origin + to * direction, static_cast<std::uint8_t>(i),
-                             static_cast<std::uint8_t>(j)};
+        const double from = std::max(kept.part.from, piece.from), to = std::min(kept.part.to, piece.to);
+        if (!(from < to)) continue;
+        const auto from_plane = kept.part.from >= piece.from ? kept.from_plane : SolidVertex::kNoPlane;
+        const auto to_plane = kept.part.to <= piece.to ? kept.to_plane : SolidVertex::kNoPlane;
+        return EdgeEnds{vertex(origin + from * direction, i, j, from_plane),
+                        vertex(origin + to * direction, i, j, to_plane)};
     }
     return std::nullopt;
 }
 
-std::vector<SolidEdge> edges_of(const Solid& solid) {
-    std::vector<SolidEdge> edges;
+void find_edges(Solid& solid) {
     for (std::size_t i = 0; i < solid.planes.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (solid.planes[i].surface != 0 && solid.planes[j].surface != 0)
-                if (const auto edge = edge_between(solid, solid.planes, i, j)) edges.push_back(*edge);
-    edges.shrink_to_fit();
-    return edges;
+                if (const auto ends = edge_between(solid, solid.planes, i, j))
+                    solid.edges.push_back({add_vertex(ends->from, solid.vertices), add_vertex(ends->to, solid.vertices),
+                                           static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)});
+    solid.edges.shrink_to_fit(), solid.vertices.shrink_to_fit();
 }
 
 }  // namespace quadrig

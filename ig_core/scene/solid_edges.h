@@ -8,12 +8,16 @@
 
 namespace quadrig {
 
-/// The edge between two planes of `planes`, which bound the solid together with its quadric: nothing where they do not
-/// meet on it. A solid without end has none that could be told.
-std::optional<SolidEdge> edge_between(const Solid& solid, std::span<const SolidPlane> planes, std::size_t i,
-                                      std::size_t j);
+struct EdgeEnds {
+    SolidVertex from, to;
+};
 
-/// All edges between planes that have faces.
-std::vector<SolidEdge> edges_of(const Solid& solid);
+/// The edge between planes i > j of `planes`, which bound the solid together with its quadric: nothing where they do
+/// not meet on it. A solid without end has none that could be told.
+std::optional<EdgeEnds> edge_between(const Solid& solid, std::span<const SolidPlane> planes, std::size_t i,
+                                     std::size_t j);
+
+/// Finds all edges between planes that have faces. Where edges meet they have one vertex.
+void find_edges(Solid& solid);
 
 }  // namespace quadrig

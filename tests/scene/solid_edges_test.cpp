@@ -49,9 +49,12 @@ TEST_CASE("a ball cut on six sides has twelve edges where the faces meet within 
         REQUIRE(solid.edges.size() == 12);
         const double length = 2 * std::min(distance, std::sqrt(1 - 2 * distance * distance));
         for (const SolidEdge& edge : solid.edges) {
-            CHECK(glm::length(edge.to - edge.from) == Approx(length).epsilon(1e-14));
-            CHECK(glm::length(edge.to + edge.from) == Approx(2 * std::sqrt(2.0) * distance).epsilon(1e-14));
+            const glm::dvec3 from = solid.vertices[edge.from].at, to = solid.vertices[edge.to].at;
+            CHECK(glm::length(to - from) == Approx(length).epsilon(1e-14));
+            CHECK(glm::length(to + from) == Approx(2 * std::sqrt(2.0) * distance).epsilon(1e-14));
         }
+        // A box's corners are common to three edges; chords that end on the ball have ends of their own.
+        CHECK(solid.vertices.size() == (distance < 0.55 ? 8 : 24));
     }
 }
 
@@ -65,8 +68,9 @@ TEST_CASE("an edge lies in its two planes, and ends on a third or on the quadric
         for (const SolidEdge& edge : solid.edges) {
             const int surface = solid.planes[edge.plane].surface, other = solid.planes[edge.other_plane].surface;
             CAPTURE(trial, surface, other);
-            for (const glm::dvec3& end : {edge.from, edge.to}) {
-                const Real3 p(end);
+            for (const std::uint8_t end : {edge.from, edge.to}) {
+                const SolidVertex& vertex = solid.vertices[end];
+                const Real3 p(vertex.at);
                 constexpr Real kOn = 1e-8L;  // metres, planes that almost agree
                 REQUIRE(std::abs(at(face(given.exact, surface), p)) < kOn);
                 REQUIRE(std::abs(at(face(given.exact, other), p)) < kOn);
@@ -76,6 +80,13 @@ TEST_CASE("an edge lies in its two planes, and ends on a third or on the quadric
                 REQUIRE(left > -kOn);
                 REQUIRE(outside < kOn);
                 REQUIRE((left < kOn || outside > -kOn));
+                const auto named = [&](std::uint8_t plane) {
+                    return std::find(vertex.planes.begin(), vertex.planes.end(), plane) != vertex.planes.end();
+                };
+                REQUIRE((named(edge.plane) && named(edge.other_plane)));
+                const std::uint8_t third = vertex.planes[2];
+                if (third != SolidVertex::kNoPlane)
+                    REQUIRE(std::abs(at(face(given.exact, solid.planes[third].surface), p)) < kOn);
                 ++ends;
             }
         }
@@ -107,7 +118,7 @@ TEST_CASE("a point common to two planes lies on their edge if the solid holds it
                     const int first = solid.planes[edge.plane].surface, second = solid.planes[edge.other_plane].surface;
                     return std::min(first, second) == std::min(a.surface, b.surface) &&
                            std::max(first, second) == std::max(a.surface, b.surface) &&
-                           glm::dot(p - Real3(edge.from), p - Real3(edge.to)) < 0;
+                           glm::dot(p - Real3(solid.vertices[edge.from].at), p - Real3(solid.vertices[edge.to].at)) < 0;
                 });
                 CAPTURE(trial, a.surface, b.surface);
                 REQUIRE(found == expected);

@@ -64,7 +64,7 @@ TEST_CASE("once its views have been drawn, a frame allocates nothing") {
 
 TEST_CASE("nor does it on a grid half or twice as fine as the picture") {
     Randomness random(3);
-    const Scene scene = painted_scene(random, 40);
+    const Scene scene = painted_scene(random, 15);
     for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter, ShadingRate::four}) {
         // Rows of a strip pass their memory on to one another: it takes some flights until each has the most.
         const auto counts = flights(scene, 1, 8, {.shading = rate});

@@ -9,7 +9,7 @@ using namespace quadrig;
 using namespace quadrig::test;
 
 TEST_CASE("random scenes: no pixel but a tie differs from the exact answer, and depth agrees to 1e-6") {
-    const int scenes = trials(200, 20);
+    const int scenes = trials(200, 8);
     std::cout << "random scenes: seed " << seed() << ", " << scenes << " scenes\n";
     std::int64_t drawn = 0, ties = 0;
     for (int trial = 0; trial < scenes; ++trial) {

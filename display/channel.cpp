@@ -21,13 +21,6 @@ namespace {
 
 constexpr int kBytesPerPixel = 4;
 
-struct ContextDeleter {
-    void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
-};
-struct AlignedDeleter {
-    void operator()(std::uint8_t* memory) const { std::free(memory); }
-};
-
 std::size_t padded_row_bytes(int width) {
     const std::size_t bytes = static_cast<std::size_t>(width) * kBytesPerPixel;
     return (bytes + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
@@ -36,6 +29,13 @@ std::size_t padded_row_bytes(int width) {
 }  // namespace
 
 struct Channel::Impl {
+    struct ContextDeleter {
+        void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+    };
+    struct AlignedDeleter {
+        void operator()(std::uint8_t* memory) const { std::free(memory); }
+    };
+
     int width, height;
     std::size_t row_bytes;
     // The context is destroyed before the memory it draws into.

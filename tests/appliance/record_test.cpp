@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-std::string scene() { return scratch_file("scene.toml", small_scene()); }
+std::string scene_to_fly() { return scratch_file("scene.toml", small_scene()); }
 
 /// A Modbus host's flight as a capture: the climb of fdm_climb, 60 poses a second.
 std::filesystem::path modbus_climb(const std::filesystem::path& file, int count) {
@@ -49,7 +49,7 @@ struct TwoReports {
 /// A live run, driven by `quadrig send` and recorded; then its recording, played as fast as it goes.
 TwoReports live_and_again(const std::string& scheme, const std::filesystem::path& flight,
                           const std::filesystem::path& recording) {
-    const std::string scene_file = scene();
+    const std::string scene_file = scene_to_fly();
     const auto out = scratch_directory();
     Program program({"run", "--scene", scene_file, "--link", scheme + "://127.0.0.1:0", "--size", "48x32", "--frames",
                      "90", "--record", recording, "--report", out / "live.json"});
@@ -221,10 +221,10 @@ TEST_CASE("What cannot be recorded or sent is said before anything runs") {
     fails({"monitor", "fdm://127.0.0.1:0", "--strict", "--seconds", "0.05"}, 1, "nothing was heard");
     fails({"send", fdm_climb(3), "--to", "cigi://127.0.0.1:9"}, 1, "no datagram of a CIGI");
     fails({"send", fdm_climb(3), "--to", "fdm:"}, 2, "needs ADDRESS:PORT");
-    fails({"run", "--scene", scene(), "--link", "fdm://127.0.0.1:0", "--link", "cigi://127.0.0.1:0", "--record",
+    fails({"run", "--scene", scene_to_fly(), "--link", "fdm://127.0.0.1:0", "--link", "cigi://127.0.0.1:0", "--record",
            out / "a.pcapng"},
           2, "--record takes one link");
     std::ofstream(out / "bad.pcapng.frames") << "quadrig-frames 2 rate 60/1\n5,1,0,0\n4,2,0,0\n";
     std::filesystem::copy_file(fdm_climb(3), out / "bad.pcapng");
-    fails({"replay", out / "bad.pcapng", "--scene", scene(), "--fast"}, 1, "bad.pcapng.frames:3: expected");
+    fails({"replay", out / "bad.pcapng", "--scene", scene_to_fly(), "--fast"}, 1, "bad.pcapng.frames:3: expected");
 }

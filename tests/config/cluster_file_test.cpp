@@ -58,10 +58,10 @@ altitude = 900
 ellipsoid = { centre = [0, 0, 0], semi_axes = [90, 60, 30] }
 )";
 
-struct Mistake {
+struct ClusterMistake {
     std::string original, replacement, key, complaint;
 };
-const std::vector<Mistake> kMistakes{
+const std::vector<ClusterMistake> kClusterMistakes{
     {"seed = 3", "sed = 3", "cluster[0].sed", "unknown key"},
     {"seed = 3", "seed = 0.5", "cluster[0].seed", "expected a whole number in 0..9007199254740991, found 0.5"},
     {"terrain = true", "terrain = 1", "cluster[0].terrain", "expected true or false, found 1"},
@@ -101,7 +101,7 @@ const std::vector<Mistake> kMistakes{
 };
 
 /// Where an original text occurs more than once, the last place counts.
-std::string with(const Mistake& mistake) {
+std::string with(const ClusterMistake& mistake) {
     std::string text = kClusters;
     const std::size_t position = text.rfind(mistake.original);
     REQUIRE(position != std::string::npos);
@@ -144,7 +144,7 @@ Kind kind_of(const Scene& scene, const std::string& name) {
 }  // namespace
 
 TEST_CASE("every mistake in a cluster is refused with file, line, key, what was expected and what was found") {
-    for (const Mistake& mistake : kMistakes) {
+    for (const ClusterMistake& mistake : kClusterMistakes) {
         const TemporaryFile file(with(mistake));
         CAPTURE(mistake.original, mistake.replacement);
         if (mistake.complaint.empty()) {

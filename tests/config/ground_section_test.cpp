@@ -5,6 +5,7 @@
 #include "tests/config/temporary_file.h"
 
 using namespace quadrig;
+using tests::replaced;
 using tests::TemporaryFile;
 
 namespace {
@@ -14,11 +15,6 @@ constexpr const char* kGround =
     "7 }\n"
     "[[ground_polygon]]\ncorners = [[0, 0], [10, 0], [10, 10], [0, 10]]\ncolour = [0.5, 0.25, 0.125]\n"
     "[[light]]\npositions = [[1, 2, 3], [4, 5, 6]]\ncolour = [0, 0.5, 1]\nbeam = { heading = 45, width = 30 }\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    text.replace(text.find(what), what.size(), by);
-    return text;
-}
 
 }  // namespace
 

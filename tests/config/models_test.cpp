@@ -6,13 +6,8 @@
 #include "tests/config/temporary_file.h"
 
 using namespace quadrig;
+using tests::scene_of;
 using tests::TemporaryFile;
-
-namespace {
-
-Scene scene_of(const std::string& text) { return config::read_scene(TemporaryFile(text).path()); }
-
-}  // namespace
 
 TEST_CASE("the aircraft that travels along is about 40 quadrics, the same on both sides") {
     const auto parts = config::read_model(config::config_directory() / "models" / "x-29.toml");

@@ -9,11 +9,10 @@
 #include "tests/config/temporary_file.h"
 
 using namespace quadrig;
+using tests::scene_of;
 using tests::TemporaryFile;
 
 namespace {
-
-Scene scene_of(const std::string& text) { return config::read_scene(TemporaryFile(text).path()); }
 
 const Texture& pattern(const std::string& name) {
     static const std::vector<Texture> all = config::read_patterns();

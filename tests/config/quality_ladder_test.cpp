@@ -8,6 +8,7 @@
 
 using namespace quadrig;
 using namespace quadrig::config;
+using tests::replaced;
 using tests::TemporaryFile;
 
 namespace {
@@ -17,11 +18,6 @@ constexpr const char* kTwoSteps =
     "distance = \"interpolated\"\nsine = \"table\"\nterms_left_out = 2\nsmooth_stretches = false\nshading = \"half\"\n"
     "smallest_feature = 1.5\n"
     "[[quality]]\nname = \"default\"\ncost = 1\npsnr = 45\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    text.replace(text.find(what), what.size(), by);
-    return text;
-}
 
 }  // namespace
 

@@ -10,11 +10,9 @@
 
 using namespace quadrig;
 using config::read_scene;
-using tests::TemporaryFile;
+using tests::scene_of;
 
 namespace {
-
-Scene scene_of(std::string_view text) { return read_scene(TemporaryFile(text).path()); }
 
 std::string written(const Scene& scene) {
     std::ostringstream out;

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "config/scene_file.h"
+
 namespace quadrig::tests {
 
 /// A file of the given text that is gone with the object.
@@ -32,5 +34,14 @@ class TemporaryFile {
   private:
     std::filesystem::path path_;
 };
+
+/// The scene that such a file holds.
+inline Scene scene_of(std::string_view text) { return config::read_scene(TemporaryFile(text).path()); }
+
+/// A text with the first occurrence of something in it replaced.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
+    return text;
+}
 
 }  // namespace quadrig::tests

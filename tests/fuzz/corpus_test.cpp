@@ -41,13 +41,6 @@ std::string hex_of(const Bytes& bytes) {
     return text;
 }
 
-/// Under sanitizers a reader takes several times as long.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kFewer = 5;
-#else
-constexpr int kFewer = 1;
-#endif
-
 /// Reads the corpus, and as many changed copies.
 void read_all(std::string_view name, int copies) {
     CAPTURE(test::seed());
@@ -64,7 +57,8 @@ void read_all(std::string_view name, int copies) {
         }
     };
     for (const Bytes& input : corpus) read(input);
-    for (int copy = 0; copy < test::trials(copies / kFewer); ++copy) read(mutated(corpus, target->most_bytes, random));
+    for (int copy = 0; copy < test::trials(copies, copies / 5); ++copy)
+        read(mutated(corpus, target->most_bytes, random));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::vector<Bytes> recorded(const char* name, std::size_t count) {
 /// Frames with a packet of every kind that is understood.
 std::vector<Bytes> cigi_messages(host::cigi::Format format) {
     using namespace host::cigi;
-    using test::ig_control, test::message, test::ownship;
+    using host::test::ig_control, host::test::message, host::test::ownship;
     EntityControl other = ownship(47.27);
     other.entity = 3;
     other.type = 12;
@@ -93,7 +93,7 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
     // 4.0 has an entity's position in a packet of its own; a 3.x message has nothing of that id.
     const auto with_positions = [&](Bytes bytes, std::initializer_list<EntityControl> entities) {
         if (format.version == Version::four)
-            for (const EntityPosition position : entities) test::append(bytes, position, format);
+            for (const EntityPosition position : entities) host::test::append(bytes, position, format);
         return bytes;
     };
     return {with_positions(message(format, ig_control(1, 1667), ownship(), ViewControl{}, window), {ownship()}),
@@ -105,7 +105,7 @@ std::vector<Bytes> cigi_messages(host::cigi::Format format) {
                 message(format, ig_control(4, 6667), hanging, rates, layer, region, inside, pattern, sensor, feeler),
                 {hanging}),
             message(format, ig_control(5, 8333), height) +
-                (format.version == Version::four ? Bytes{} : test::raw_packet(200, 16))};
+                (format.version == Version::four ? Bytes{} : host::test::raw_packet(200, 16))};
 }
 
 Bytes fdm(std::uint32_t version, double latitude) {
@@ -189,13 +189,13 @@ void add_links(std::vector<Seed>& all) {
     append_message(clients, one, 0, 1);
     append_message(clients, Input(two).first(20), 0, 2);
     append_message(clients,
-                   test::from_hex("000100000006010300000018"
-                                  "000200000006010400000020"
-                                  "0003000000060106000a0001"),
+                   host::test::from_hex("000100000006010300000018"
+                                        "000200000006010400000020"
+                                        "0003000000060106000a0001"),
                    0, 3);
     append_message(clients, Input(two).subspan(20), 0, 2);
-    append_message(clients, test::from_hex("00040000000d011700000004000a0001020007"), 0, 1);
-    append_message(clients, test::from_hex("000500000002012b"), 0, 4);
+    append_message(clients, host::test::from_hex("00040000000d011700000004000a0001020007"), 0, 1);
+    append_message(clients, host::test::from_hex("000500000002012b"), 0, 4);
     all.push_back({"modbus", "four_clients", clients});
     const Bytes digits(std::size_t{2} * modbus::kScaledRegisters, std::byte{1});
     all.push_back({"modbus", "scaled_block", conversation({modbus_write(modbus::kScaledBlock, digits), one})});
@@ -222,10 +222,10 @@ void add_recordings(std::vector<Seed>& all) {
     all.push_back({"capture", "can", recording_of(Protocol::canaerospace, RecordingFormat::pcapng, can_records())});
     const Bytes datagram = cigi_messages(ByteOrder::little)[0];
     constexpr std::uint32_t kEthernet = 1, kLinuxCooked = 113;
-    test::PcapWriter ethernet(kEthernet), cooked(kLinuxCooked);
-    ethernet.packet(test::ethernet(test::ipv4_udp(datagram), 0x0800), Time(0));
-    ethernet.packet(test::ethernet(test::ipv6_udp(datagram), 0x86DD), Time(1000));
-    cooked.packet(Bytes(14) + test::from_hex("0800") + test::ipv4_udp(datagram), Time(0));
+    host::test::PcapWriter ethernet(kEthernet), cooked(kLinuxCooked);
+    ethernet.packet(host::test::ethernet(host::test::ipv4_udp(datagram), 0x0800), Time(0));
+    ethernet.packet(host::test::ethernet(host::test::ipv6_udp(datagram), 0x86DD), Time(1000));
+    cooked.packet(Bytes(14) + host::test::from_hex("0800") + host::test::ipv4_udp(datagram), Time(0));
     all.push_back({"capture", "ethernet", ethernet.bytes()});
     all.push_back({"capture", "linux_cooked", cooked.bytes()});
     std::string frames = first_line({60, 1});

@@ -16,8 +16,8 @@ const std::map<std::string, double> kDepthLimits{
 };
 
 /// Beginnings of the catalogue's file names.
-const std::set<std::string> kKinds{"eye",  "planes",  "size", "numbers", "degenerate",
-                                   "rows", "between", "view", "shape",   "random"};
+const std::set<std::string> kCaseKinds{"eye",  "planes",  "size", "numbers", "degenerate",
+                                       "rows", "between", "view", "shape",   "random"};
 
 /// Identity and depth are exact; the picture differs from 3 x 3 rays a pixel by no more than edges may (steps of 255).
 void check_cases(const std::string& kind) {
@@ -60,7 +60,7 @@ TEST_CASE("the catalogue has its hard cases, each with a reason of its own and o
     for (const auto& file : hard_case_files()) {
         const HardCase hard_case = read_hard_case(file);
         INFO(hard_case.name);
-        CHECK(kKinds.count(hard_case.name.substr(0, hard_case.name.find('_'))) == 1);
+        CHECK(kCaseKinds.count(hard_case.name.substr(0, hard_case.name.find('_'))) == 1);
         CHECK(reasons.insert(hard_case.reason).second);
         CHECK_FALSE(hard_case.scene.objects.empty());
     }

@@ -8,16 +8,8 @@
 using namespace quadrig;
 using namespace quadrig::test;
 
-namespace {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenes = 20;  // several times slower
-#else
-constexpr int kScenes = 200;
-#endif
-}  // namespace
-
 TEST_CASE("random scenes: no pixel but a tie differs from the exact answer, and depth agrees to 1e-6") {
-    const int scenes = trials(kScenes);
+    const int scenes = trials(200, 8);
     std::cout << "random scenes: seed " << seed() << ", " << scenes << " scenes\n";
     std::int64_t drawn = 0, ties = 0;
     for (int trial = 0; trial < scenes; ++trial) {
@@ -36,7 +28,7 @@ TEST_CASE("random scenes: no pixel but a tie differs from the exact answer, and 
 }
 
 TEST_CASE("random scenes: pictures look like the reference's") {
-    for (int trial = 0; trial < trials(20); ++trial) {
+    for (int trial = 0; trial < trials(20, 4); ++trial) {
         const RandomScene random = random_scene(1'000'000 + trial, 120, 90);
         const PictureErrors picture = picture_errors(random.scene, random.view);
         INFO("seed " << seed() << " trial " << trial << " of " << random.scene.objects.size() << " objects");

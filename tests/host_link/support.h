@@ -18,6 +18,9 @@ namespace quadrig::host::test {
 
 using Bytes = std::vector<std::byte>;
 
+inline constexpr cigi::Format kLittle4{ByteOrder::little, cigi::Version::four};
+inline constexpr cigi::Format kBig4{ByteOrder::big, cigi::Version::four};
+
 Bytes from_hex(std::string_view hex);
 std::string to_hex(std::span<const std::byte> bytes);
 

@@ -14,8 +14,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr cigi::Format kLittle4{ByteOrder::little, cigi::Version::four}, kBig4{ByteOrder::big, cigi::Version::four};
-
 SessionOptions at_home(std::optional<cigi::Version> version = {}) {
     SessionOptions options;
     options.scene_origin = {{47.26}, {11.34}, 500.0};

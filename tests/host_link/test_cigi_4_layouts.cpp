@@ -14,8 +14,6 @@ using namespace quadrig::host::test;
 
 namespace {
 
-constexpr cigi::Format kLittle4{ByteOrder::little, cigi::Version::four}, kBig4{ByteOrder::big, cigi::Version::four};
-
 /// A packet's bytes in both orders, field by field at its offset, each with a random value that the struct gets too.
 struct Table {
     std::mt19937_64& random;

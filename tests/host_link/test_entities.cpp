@@ -24,7 +24,7 @@ SessionOptions at_home() {
     return options;
 }
 
-struct Host {
+struct EntityHost {
     Session session{at_home()};
     std::uint32_t frame = 0;
     Time now = 0ms;
@@ -69,7 +69,7 @@ double turned(const ScenePose& a, const ScenePose& b) {
 }  // namespace
 
 TEST_CASE("Entities are where their newest packets have them, and shown while they are active") {
-    Host host;
+    EntityHost host;
     auto other = entity(7, 47.001);
     other.yaw = 90.0F;
     host.send(other);
@@ -95,7 +95,7 @@ TEST_CASE("Entities are where their newest packets have them, and shown while th
 }
 
 TEST_CASE("As many entities as there is room for are followed beside the ownship; those that stand by make room") {
-    Host host;
+    EntityHost host;
     host.send(ownship());
     auto idle = entity(9);
     idle.state = cigi::EntityState::standby;
@@ -110,7 +110,7 @@ TEST_CASE("As many entities as there is room for are followed beside the ownship
 }
 
 TEST_CASE("Rates in level axes move an entity on a straight line, turning it about a fixed axis") {
-    Host host;
+    EntityHost host;
     auto other = entity(7);
     other.yaw = 30.0F;
     host.now = 5s;
@@ -172,7 +172,7 @@ TEST_CASE("A smoothed entity never jumps: a new packet is let in evenly, and the
     INFO("seed " << seed);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    Host host;
+    EntityHost host;
     auto other = entity(7);
     other.smoothing = true;
     auto rates = cigi::RateControl{.entity = 7, .x = 50.0F, .y = 5.0F, .yaw = 10.0F};
@@ -218,7 +218,7 @@ TEST_CASE("A smoothed entity never jumps: a new packet is let in evenly, and the
 
 TEST_CASE("Roll, pitch and yaw rates of the wire turn right wing down, nose up and to the right") {
     const auto after = [](cigi::RateControl rates) {
-        Host host;
+        EntityHost host;
         rates.entity = 7, rates.local = true;
         host.send(entity(7), rates);
         return std::pair(*host.pose(7, 1s), *host.pose(7, 0s));
@@ -233,7 +233,7 @@ TEST_CASE("Roll, pitch and yaw rates of the wire turn right wing down, nose up a
 }
 
 TEST_CASE("An attached entity is where its parent and its offset put it, however deep, and goes with its parent") {
-    Host host;
+    EntityHost host;
     auto parent = entity(1);
     parent.yaw = 90.0F, parent.pitch = 10.0F;
     auto turret = hung(2, 1, 5.0, 2.0, -3.0);
@@ -259,7 +259,7 @@ TEST_CASE("An attached entity is where its parent and its offset put it, however
 }
 
 TEST_CASE("What hangs on the ownship goes where the ownship is said to be, and the ownship may hang on others") {
-    Host host;
+    EntityHost host;
     host.send(ownship(), hung(4, 0, 10.0), entity(1), hung(5, 1, 7.0));
     const ScenePose elsewhere{{{1e4, 0.0, 0.0}}, eye_from_scene_rotation({{45}, {0}, {0}})};
     CHECK(apart(*pose_of(host.entities(), 4, 0s, std::pair(std::uint16_t{0}, elsewhere)),
@@ -272,7 +272,7 @@ TEST_CASE("What hangs on the ownship goes where the ownship is said to be, and t
 }
 
 TEST_CASE("Loops and chains too deep are refused, counted, and leave everything where it was") {
-    Host host;
+    EntityHost host;
     host.send(entity(1), hung(2, 1), hung(3, 2));
     for (const std::uint16_t onto : {std::uint16_t{1}, std::uint16_t{2}, std::uint16_t{3}}) host.send(hung(1, onto));
     CHECK(host.refused(Reject::bad_attachment) == 3);
@@ -282,7 +282,7 @@ TEST_CASE("Loops and chains too deep are refused, counted, and leave everything 
     CHECK_FALSE(host.pose(kDeepest + 1, 0s).has_value());
     CHECK(host.refused(Reject::bad_attachment) > 3);
     // A chain that grows from its end is found too deep where it is looked at.
-    Host other;
+    EntityHost other;
     for (std::uint16_t id = 30; id > 1; --id) other.send(hung(id, static_cast<std::uint16_t>(id - 1)));
     other.send(entity(1));
     CHECK(other.pose(kDeepest, 0s).has_value());
@@ -290,7 +290,7 @@ TEST_CASE("Loops and chains too deep are refused, counted, and leave everything 
 }
 
 TEST_CASE("Offsets and rates that are not finite or beyond belief are counted and not taken") {
-    Host host;
+    EntityHost host;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     host.send(entity(1), hung(2, 1));
     std::uint64_t refused = 0;
@@ -309,7 +309,7 @@ TEST_CASE("Offsets and rates that are not finite or beyond belief are counted an
 }
 
 TEST_CASE("A view may ride on any entity that the host has named") {
-    Host host;
+    EntityHost host;
     host.send(ownship(), entity(7), cigi::ViewControl{.x_enable = true, .entity = 7, .x = 3.0F});
     CHECK(host.session.state().view_entity == 7);
     CHECK(host.session.state().mount->offset.y == 3.0);

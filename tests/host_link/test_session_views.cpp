@@ -12,11 +12,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct Host {
+struct ViewHost {
     Session session;
     std::uint32_t frame = 0;
     Time now = 0ms;
-    explicit Host(SessionOptions options = {}) : session(options) {}
+    explicit ViewHost(SessionOptions options = {}) : session(options) {}
     template <class... P>
     const HostState& send(const P&... packets) {
         session.accept(
@@ -63,7 +63,7 @@ cigi::CelestialSphereControl noon() {
 }  // namespace
 
 TEST_CASE("View Control's body axes become the mount's: forward, right, down to right, forward, up") {
-    Host host;
+    ViewHost host;
     const ViewMount mount = host.send(full_view_control(1)).mount.value();
     CHECK(mount.offset.x == -0.5);
     CHECK(mount.offset.y == 3.0);
@@ -74,7 +74,7 @@ TEST_CASE("View Control's body axes become the mount's: forward, right, down to 
 }
 
 TEST_CASE("View Control changes only what it enables") {
-    Host host;
+    ViewHost host;
     host.send(full_view_control(1));
     cigi::ViewControl yaw_only;
     yaw_only.view = 1;
@@ -88,14 +88,14 @@ TEST_CASE("View Control changes only what it enables") {
 }
 
 TEST_CASE("Ours is the view that was asked for, or the first one that the host names") {
-    Host first;
+    ViewHost first;
     first.send(full_view_control(4));
     first.send(full_view_definition(5));
     CHECK(first.session.state().mount.has_value());
     CHECK_FALSE(first.session.state().window.has_value());
     SessionOptions options;
     options.view = 5;
-    Host asked(options);
+    ViewHost asked(options);
     asked.send(full_view_control(4));
     asked.send(full_view_definition(5));
     CHECK_FALSE(asked.session.state().mount.has_value());
@@ -103,7 +103,7 @@ TEST_CASE("Ours is the view that was asked for, or the first one that the host n
 }
 
 TEST_CASE("View groups are not followed, and a view on an entity that nobody named is counted") {
-    Host host;
+    ViewHost host;
     auto group = full_view_control(1);
     group.group = 3;
     CHECK_FALSE(host.send(group).mount.has_value());
@@ -114,7 +114,7 @@ TEST_CASE("View groups are not followed, and a view on an entity that nobody nam
 }
 
 TEST_CASE("View Definition sets the window; its flags enable each angle by itself") {
-    Host host;
+    ViewHost host;
     const ViewWindow window = host.send(full_view_definition(1)).window.value();
     CHECK(window.left.value == -40.0);
     CHECK(window.right.value == 20.0);
@@ -134,18 +134,18 @@ TEST_CASE("A View Definition of some angles waits for the others, or takes them 
     sides.left_enable = sides.right_enable = true;
     sides.left = -10.0F;
     sides.right = 10.0F;
-    Host bare;
+    ViewHost bare;
     CHECK_FALSE(bare.send(sides).window.has_value());
     SessionOptions options;
     options.default_window = ViewWindow{{-30.0}, {30.0}, {20.0}, {-20.0}};
-    Host filled(options);
+    ViewHost filled(options);
     CHECK_FALSE(filled.send(cigi::ViewDefinition{}).window.has_value());
     CHECK(filled.send(sides).window->top.value == 20.0);
     CHECK(filled.session.state().window->right.value == 10.0);
 }
 
 TEST_CASE("Windows that cannot be drawn are refused as a whole") {
-    Host host;
+    ViewHost host;
     auto crossed = full_view_definition(1);
     crossed.left = 25.0F;
     CHECK_FALSE(host.send(crossed).window.has_value());
@@ -159,7 +159,7 @@ TEST_CASE("Windows that cannot be drawn are refused as a whole") {
 }
 
 TEST_CASE("Visibility is the atmosphere's, never negative and never zero") {
-    Host host;
+    ViewHost host;
     cigi::AtmosphereControl air;
     air.visibility = 12500.0F;
     CHECK(host.send(air).visibility == 12500.0);
@@ -173,7 +173,7 @@ TEST_CASE("Visibility is the atmosphere's, never negative and never zero") {
 }
 
 TEST_CASE("Date and time are the host's; without ephemeris they stand, with it they run over midnight and leap days") {
-    Host host;
+    ViewHost host;
     auto sky = noon();
     sky.hour = 23;
     sky.minute = 59;
@@ -198,7 +198,7 @@ TEST_CASE("Date and time are the host's; without ephemeris they stand, with it t
 }
 
 TEST_CASE("Dates that are not valid, or not in the calendar, are not taken") {
-    Host host;
+    ViewHost host;
     auto sky = noon();
     sky.date_time_valid = false;
     CHECK_FALSE(host.send(sky).utc.has_value());
@@ -281,7 +281,7 @@ TEST_CASE("A database is told as loading until the host has taken notice, then a
 }
 
 TEST_CASE("A host that goes to standby has everything that it put there taken away, but where it is") {
-    Host host;
+    ViewHost host;
     cigi::EntityControl other = ownship(47.3);
     other.entity = 9, other.type = 2;
     const cigi::WeatherControl fog{.enable = true, .visibility = 90.0F, .coverage = 100.0F, .thickness = 100.0F};

@@ -18,7 +18,7 @@ namespace {
 
 const GeodeticPosition kOrigin{{47.26}, {11.34}, 500.0};
 
-struct Host {
+struct RegionHost {
     Session session{[] {
         SessionOptions options;
         options.scene_origin = kOrigin;
@@ -60,7 +60,7 @@ TEST_CASE("A region's weather is whole within its rounded rectangle and thins ou
         packet.corner_radius = i % 3 == 0 ? 0.0F : i % 3 == 1 ? most : static_cast<float>(between(0.0, most));
         packet.rotation = static_cast<float>(between(-180.0, 180.0));
         packet.transition_perimeter = i % 4 == 0 ? 0.0F : static_cast<float>(between(1.0, 5000.0));
-        Host host;
+        RegionHost host;
         const WeatherRegion region = *host.send(packet).begin();
         // About the region's own middle, X to the north at first: GeographicLib's arithmetic, not the session's.
         const GeographicLib::LocalCartesian there(packet.latitude, packet.longitude, 0.0);
@@ -89,7 +89,7 @@ TEST_CASE("A region's weather is whole within its rounded rectangle and thins ou
 }
 
 TEST_CASE("Weather of a region is kept with it, whichever of the two comes first, until the region is destroyed") {
-    Host host;
+    RegionHost host;
     const cigi::WeatherControl rain{.region = 7,
                                     .layer = 4,
                                     .enable = true,
@@ -120,7 +120,7 @@ TEST_CASE("Weather of a region is kept with it, whichever of the two comes first
 
 TEST_CASE("A region that makes no sense is refused, and of more than are kept the host is told") {
     using Region = cigi::EnvironmentalRegionControl;
-    Host host;
+    RegionHost host;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::uint64_t refused = 0;
     const auto check_refused = [&](const Region& region) {

@@ -70,7 +70,7 @@ TEST_CASE(
     "models are drawn where the host places them, numbered after the scene's objects, and gone when it takes them "
     "away") {
     CAPTURE(seed());
-    for (int trial = 0; trial < trials(8); ++trial) {
+    for (int trial = 0; trial < trials(8, 2); ++trial) {
         Randomness random(trial);
         Scene scene = random_scene(random, 5);
         scene.models = {aircraft(random), aircraft(random)};
@@ -107,7 +107,7 @@ TEST_CASE(
 
 TEST_CASE("what a still eye keeps from frame to frame changes no bit, whatever else moves, comes, goes or turns") {
     CAPTURE(seed());
-    for (int trial = 0; trial < trials(6); ++trial) {
+    for (int trial = 0; trial < trials(6, 2); ++trial) {
         Randomness random(trial);
         Scene scene = painted_scene(random, 30);
         set_moving(scene, random);

@@ -66,7 +66,7 @@ Scene one_tree() {
 
 TEST_CASE("edges of plain opaque solids are as 64 rays a pixel have them") {
     CAPTURE(seed());
-    for (int trial = 0; trial < trials(10); ++trial) {
+    for (int trial = 0; trial < trials(10, 3); ++trial) {
         Randomness random(trial);
         Scene scene = random_scene(random, 12);
         for (Object& object : scene.objects)
@@ -92,7 +92,7 @@ TEST_CASE("a tree on a hill's foot under clouds is drawn as the reference draws 
 
 TEST_CASE("scenes with everything in them are drawn as the reference draws them") {
     CAPTURE(seed());
-    for (int trial = 0; trial < trials(8); ++trial) {
+    for (int trial = 0; trial < trials(8, 2); ++trial) {
         Randomness random(trial);
         const Scene scene = painted_scene(random, 15);
         const Error error = picture_error(scene, random_view(random, 96, 72), {random.between(0, 60), {}, {}});

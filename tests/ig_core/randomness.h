@@ -25,6 +25,15 @@ inline int trials(int count) {
     return given != nullptr ? std::max(1, static_cast<int>(std::lround(count * std::stod(given)))) : count;
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+/// Fewer of them under sanitizers, where each takes several times as long: Release builds draw them all.
+inline int trials(int count, int under_sanitizers) { return trials(kSanitized ? under_sanitizers : count); }
+
 /// One generator for each trial, so that a trial can be run without those before it.
 class Randomness {
   public:

@@ -45,14 +45,14 @@ bool contains(const Object& object, const Position& p) {
     return inside;
 }
 
-struct Randomness {
+struct OwnRandomness {
     std::mt19937_64 engine;
     double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
     glm::dvec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
 };
 
 /// An elliptic cylinder, cone or paraboloid with axis Z, its convex part about the origin's upper side.
-Object random_quadric_of_revolution(Randomness& random) {
+Object random_quadric_of_revolution(OwnRandomness& random) {
     const double a = random.between(0.1, 1), b = random.between(0.1, 1);
     switch (random.engine() % 3) {
         case 0:
@@ -64,7 +64,7 @@ Object random_quadric_of_revolution(Randomness& random) {
     }
 }
 
-Object random_solid(Randomness& random) {
+Object random_solid(OwnRandomness& random) {
     Object object;
     switch (random.engine() % 3) {
         case 0:
@@ -87,7 +87,7 @@ Object random_solid(Randomness& random) {
     return object;
 }
 
-View random_view(Randomness& random) {
+View random_view(OwnRandomness& random) {
     glm::dvec3 out;
     do out = random.vector(1);
     while (glm::length(out) < 0.1);
@@ -105,7 +105,7 @@ TEST_CASE("rays enter random solids on the named surface, from outside to inside
     const auto seed = std::random_device{}();
     INFO("seed " << seed);
     std::cout << "random solids: seed " << seed << '\n';
-    Randomness random{std::mt19937_64(seed)};
+    OwnRandomness random{std::mt19937_64(seed)};
     int hits = 0;
     for (int trial = 0; trial < 150; ++trial) {
         const Object object = random_solid(random);
@@ -148,7 +148,7 @@ TEST_CASE("a bounding sphere holds its solid, and is finite where planes close t
     const auto seed = std::random_device{}();
     INFO("seed " << seed);
     std::cout << "bounding spheres: seed " << seed << '\n';
-    Randomness random{std::mt19937_64(seed)};
+    OwnRandomness random{std::mt19937_64(seed)};
     int inside = 0;
     for (int trial = 0; trial < 300; ++trial) {
         const Object object = random_solid(random);

@@ -10,7 +10,7 @@ namespace {
 
 /// A texture so coarse that T is the same everywhere: with phase 0, 1/4.
 const Texture kEven{"even", {{1.0, 1e-9, 0.0}}, 0.0, {0.0, 0.0}};
-constexpr double kT = 0.25, kStep = 0.7;
+constexpr double kT = 0.25, kBlendStep = 0.7;
 
 /// Light from everywhere: surfaces have their own colour.
 Scene bright() {
@@ -41,7 +41,7 @@ TEST_CASE("opacity rises from 0 to 1 across the softness about the threshold") {
         scene.objects[0].paint = see_through(colour, {threshold, 1.0, 0.12});
         const double a = std::clamp((kT - threshold) / 0.12 + 0.5, 0.0, 1.0);
         CAPTURE(threshold, a);
-        CHECK(middle_off(scene, {0, 0, 0}, {}, a * colour + (1 - a) * behind(scene)) < kStep);
+        CHECK(middle_off(scene, {0, 0, 0}, {}, a * colour + (1 - a) * behind(scene)) < kBlendStep);
     }
 }
 
@@ -57,11 +57,11 @@ TEST_CASE("a ball opens towards its limb, its faces do not") {
         const double g = 1 - aside * aside / 25;
         const double a = std::clamp((kT - (0.2 + 0.3 * (1 - g))) / 0.4 + 0.5, 0.0, 1.0);
         CAPTURE(aside);
-        CHECK(middle_off(scene, {aside, 0, -60}, {{0}, {90}, {0}}, over_sky(a)) < kStep + 0.5);
+        CHECK(middle_off(scene, {aside, 0, -60}, {{0}, {90}, {0}}, over_sky(a)) < kBlendStep + 0.5);
     }
     const double on_face = std::clamp((kT - 0.2) / 0.4 + 0.5, 0.0, 1.0);
     for (const double aside : {0.0, 3.0, 3.9})
-        CHECK(middle_off(scene, {aside, 0, 60}, {{0}, {-90}, {0}}, over_sky(on_face)) < kStep);
+        CHECK(middle_off(scene, {aside, 0, 60}, {{0}, {-90}, {0}}, over_sky(on_face)) < kBlendStep);
 }
 
 TEST_CASE("layers stack front to back by distance, each by its own opacity") {
@@ -72,19 +72,19 @@ TEST_CASE("layers stack front to back by distance, each by its own opacity") {
     scene.objects[0].paint = {red, 0u, 0.0, {}};
     scene.objects[1].paint = see_through(green, {0.25, 1, 0.4});  // 1/2
     scene.objects[2].paint = see_through(blue, {0.35, 1, 0.4});   // 1/4
-    CHECK(middle_off(scene, {0, 0, 0}, {}, 0.25 * blue + 0.75 * (0.5 * green + 0.5 * red)) < kStep);
-    CHECK(middle_off(scene, {0, 50, 0}, {{180}, {0}, {0}}, red) < kStep);
+    CHECK(middle_off(scene, {0, 0, 0}, {}, 0.25 * blue + 0.75 * (0.5 * green + 0.5 * red)) < kBlendStep);
+    CHECK(middle_off(scene, {0, 50, 0}, {{180}, {0}, {0}}, red) < kBlendStep);
 }
 
 TEST_CASE("a translucent texture shows the next object, never its own back") {
     Scene scene = bright();
     scene.objects = {ball({0, 30, 0}, 10)};
     scene.objects[0].paint = see_through({1, 1, 1}, {1, 1, 0.01});
-    CHECK(middle_off(scene, {0, 0, 0}, {}, behind(scene)) < kStep);
+    CHECK(middle_off(scene, {0, 0, 0}, {}, behind(scene)) < kBlendStep);
     scene.ground = Ground{{{0.2, 0.9, 0.2}, {}, 0, {}}};
     scene.objects = {ball({0, 0, 15}, 10)};
     scene.objects[0].paint = see_through({1, 1, 1}, {1, 1, 0.01});
-    CHECK(middle_off(scene, {0, 0, 60}, {{0}, {-90}, {0}}, {0.2, 0.9, 0.2}) < kStep);
+    CHECK(middle_off(scene, {0, 0, 60}, {{0}, {-90}, {0}}, {0.2, 0.9, 0.2}) < kBlendStep);
 }
 
 TEST_CASE("cloud decks cover from above and below, in the order of their distance") {
@@ -94,10 +94,11 @@ TEST_CASE("cloud decks cover from above and below, in the order of their distanc
     scene.cloud_decks = {{200, see_through(high, {0.25, 1, 0.4})},
                          {100, see_through(low, {0.35, 1, 0.4})}};  // 1/2, 1/4
     CHECK(middle_off(scene, {0, 0, 50}, {{0}, {90}, {0}}, 0.25 * low + 0.75 * (0.5 * high + 0.5 * behind(scene))) <
-          kStep);
-    CHECK(middle_off(scene, {0, 0, 300}, {{0}, {-90}, {0}}, 0.5 * high + 0.5 * (0.25 * low + 0.75 * ground)) < kStep);
-    CHECK(middle_off(scene, {0, 0, 150}, {{0}, {90}, {0}}, 0.5 * high + 0.5 * behind(scene)) < kStep);
-    CHECK(middle_off(scene, {0, 0, 150}, {{0}, {-90}, {0}}, 0.25 * low + 0.75 * ground) < kStep);
+          kBlendStep);
+    CHECK(middle_off(scene, {0, 0, 300}, {{0}, {-90}, {0}}, 0.5 * high + 0.5 * (0.25 * low + 0.75 * ground)) <
+          kBlendStep);
+    CHECK(middle_off(scene, {0, 0, 150}, {{0}, {90}, {0}}, 0.5 * high + 0.5 * behind(scene)) < kBlendStep);
+    CHECK(middle_off(scene, {0, 0, 150}, {{0}, {-90}, {0}}, 0.25 * low + 0.75 * ground) < kBlendStep);
 }
 
 TEST_CASE("texture lightens and darkens by its weight, and a surface without one keeps its shade") {
@@ -107,8 +108,8 @@ TEST_CASE("texture lightens and darkens by its weight, and a surface without one
     const Colour colour(0.9, 0.6, 0.3);
     for (const double weight : {0.0, 0.3, 1.0}) {
         scene.objects[0].paint = {colour, 0u, weight, {}};
-        CHECK(middle_off(scene, {0, 0, 0}, {}, ((1 - weight) * 1.0 + weight * kT) * colour) < kStep);
+        CHECK(middle_off(scene, {0, 0, 0}, {}, ((1 - weight) * 1.0 + weight * kT) * colour) < kBlendStep);
     }
     scene.objects[0].paint = {colour, {}, 0.7, Translucence{1, 1, 0.1}};
-    CHECK(middle_off(scene, {0, 0, 0}, {}, colour) < kStep);
+    CHECK(middle_off(scene, {0, 0, 0}, {}, colour) < kBlendStep);
 }

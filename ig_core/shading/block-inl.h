@@ -61,7 +61,7 @@ struct Settings {
         lit.store(d, setting.lit, i), kept.store(d, setting.kept, i), threshold.store(d, setting.threshold, i);
         footprint_x.store(d, setting.footprint.x, i), footprint_y.store(d, setting.footprint.y, i);
     }
-    /// Columns c and on of a coarse block.
+    /// Columns c and on of the block.
     template <class D, class V = hn::Vec<D>>
     [[nodiscard]] HWY_INLINE Setting<V> between(D d, const ShadeInput& in, std::size_t c) const {
         const V one = hn::Set(d, 1.0F);

@@ -1,4 +1,4 @@
-/// Blocks of columns of which only every fourth or sixteenth is computed, and the rest interpolated.
+/// Blocks of columns of which only every sixteenth or fourth is computed, and the rest interpolated.
 // Per-target include guard: this header is compiled once for every instruction set.
 #if defined(QUADRIG_INTERPOLATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef QUADRIG_INTERPOLATION_INL_H_
@@ -39,8 +39,8 @@ struct Values {
 };
 using SampleValues = Values<kBlockIntervals + 4>;
 using BlockValues = Values<kBlockIntervals * kCoarseStride>;
-/// What a coarse block has of samples of the fine stride.
-constexpr std::size_t kFineCount = 4 * (kBlockIntervals + 1);
+/// Samples of the fine stride of a block and beside it.
+constexpr std::size_t kFineCount = kCoarseStride / kFineStride * (kBlockIntervals + 1);
 using FineValues = Values<kFineCount>;
 
 /// Weights of samples -1, 0, 1, 2 in the cubic through them (Lagrange), at `share` of the way from sample 0 to
@@ -101,12 +101,12 @@ HWY_INLINE void to_columns(const FineValues& fine, BlockValues& block) {
     quarter_intervals(fine.at, 4 * kBlockIntervals, block.at);
 }
 
-/// Weights of five neighbouring coarse samples in the values of the sixteen columns that stand by the middle ones.
+/// Weights of five neighbouring samples in the values of the sixteen columns that stand by the middle ones.
 struct CoarseWeights {
     alignas(64) float at[5][kCoarseStride] = {};
     constexpr CoarseWeights() {
         for (std::size_t c = 0; c < kCoarseStride; ++c) {
-            const std::size_t past = c + 4, interval = past / kCoarseStride;
+            const std::size_t past = c + kFineStride, interval = past / kCoarseStride;
             const auto w = cubic_weights(static_cast<float>(past % kCoarseStride) / kCoarseStride);
             for (std::size_t i = 0; i < w.size(); ++i) at[interval + i][c] = w[i];
         }
@@ -114,7 +114,7 @@ struct CoarseWeights {
 };
 inline constexpr CoarseWeights kCoarseWeights;
 
-/// Columns c and on of a coarse block in one step, which does without memory between two.
+/// Columns c and on of a block in one step, which does without memory between two.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V between_coarse(D d, const SampleValues& samples, std::size_t c) {
     const float* first = samples.at + c / kCoarseStride;

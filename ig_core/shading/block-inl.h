@@ -113,7 +113,7 @@ struct BlockProbe {
     float most_step2 = 0.0F;    ///< largest footprint of a step to the next column, m^2
     float least_pixel2 = 0.0F;  ///< least footprint of a pixel, m^2
 
-    /// Terms that may be interpolated between samples so many columns apart.
+    /// Terms that may be interpolated between samples so many columns apart, if the block is steady.
     [[nodiscard]] int slow_terms(const ShadeInput& in, std::size_t stride) const {
         const float reach2 = static_cast<float>(stride * stride) * most_step2;
         const int terms = term_count(in);
@@ -121,9 +121,9 @@ struct BlockProbe {
         for (; count < terms; ++count) {
             const float w = in.paint->texture->terms[static_cast<std::size_t>(count)].turns_per_metre;
             const float w2 = 4.0F * 9.8696044F * w * w;
-            // A term that has been filtered away needs no samples, if that does not change from one to the next.
+            // A term that has been filtered away needs no samples.
             const bool slow = w2 * reach2 <= kLargestPhaseStep * kLargestPhaseStep, gone = w2 * least_pixel2 >= 48.0F;
-            if (!slow && !(steady && gone)) break;
+            if (!slow && !gone) break;
         }
         return count;
     }

@@ -75,16 +75,16 @@ struct Settings {
 /// Sums of a texture's terms, of many points.
 template <class Values>
 struct SumsOfTerms {
-    Values x, y, lost_x, lost_y;
+    Values x, y, kept_x, kept_y;
 
     template <class D>
-    [[nodiscard]] HWY_INLINE TextureSums<hn::Vec<D>> load(D d, std::size_t i, bool lost_variance) const {
-        if (!lost_variance) return {x.load(d, i), y.load(d, i), hn::Zero(d), hn::Zero(d)};
-        return {x.load(d, i), y.load(d, i), lost_x.load(d, i), lost_y.load(d, i)};
+    [[nodiscard]] HWY_INLINE TextureSums<hn::Vec<D>> load(D d, std::size_t i, bool kept) const {
+        if (!kept) return {x.load(d, i), y.load(d, i), hn::Zero(d), hn::Zero(d)};
+        return {x.load(d, i), y.load(d, i), kept_x.load(d, i), kept_y.load(d, i)};
     }
     template <class D, class V = hn::Vec<D>>
     HWY_INLINE void store(D d, const TextureSums<V>& sums, std::size_t i) {
-        x.store(d, sums.x, i), y.store(d, sums.y, i), lost_x.store(d, sums.lost_x, i), lost_y.store(d, sums.lost_y, i);
+        x.store(d, sums.x, i), y.store(d, sums.y, i), kept_x.store(d, sums.kept_x, i), kept_y.store(d, sums.kept_y, i);
     }
 };
 
@@ -181,8 +181,8 @@ HWY_NOINLINE void interpolate_block(const ShadeInput& in, const BlockSamples& sa
     to_columns(at.x, known.sums.x);
     to_columns(at.y, known.sums.y);
     if (!in.paint->translucent) return;
-    to_columns(at.lost_x, known.sums.lost_x);
-    to_columns(at.lost_y, known.sums.lost_y);
+    to_columns(at.kept_x, known.sums.kept_x);
+    to_columns(at.kept_y, known.sums.kept_y);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -54,9 +54,10 @@ FramePaints make_frame_paints(const Scene& scene) {
         out.count = static_cast<int>(terms.size());
         out.vertical = static_cast<float>(scene.textures[i].vertical);
         for (std::size_t k = 0; k < terms.size(); ++k) {
-            out.terms[k].weight = static_cast<float>(terms[k].coefficient / sum);
-            out.terms[k].root_half_weight = std::sqrt(0.5F * out.terms[k].weight);
-            out.terms[k].turns_per_metre = static_cast<float>(terms[k].frequency / (2.0 * std::numbers::pi));
+            const double root = std::sqrt(terms[k].coefficient / (2.0 * sum)), w = terms[k].frequency;
+            out.terms[k].root_amplitude = static_cast<float>(root);
+            out.terms[k].fade = static_cast<float>(root * w * w / 48.0);
+            out.terms[k].turns_per_metre = static_cast<float>(w / (2.0 * std::numbers::pi));
         }
     }
     for (const Object& object : scene.objects) paints.objects.push_back(make_paint(object.paint, paints.textures));
@@ -81,10 +82,14 @@ void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, co
         const int terms = static_cast<int>(texture.terms.size());
         paints.textures[i].count = std::max(std::min(terms, 1), terms - std::max(0, quality.terms_left_out));
         paints.textures[i].sine = quality.sine;
+        paints.textures[i].variance = 0;
         for (std::size_t k = 0; k < texture.terms.size(); ++k) {
             const double w = paints.terms[i][k].frequency;
             const double p = paints.terms[i][k].phase + texture.churn * seconds;
             FrameTexture::Term& out = paints.textures[i].terms[k];
+            // That of a sine of amplitude 1 is 1/2.
+            if (static_cast<int>(k) < paints.textures[i].count)
+                paints.textures[i].variance += 0.5F * std::pow(out.root_amplitude, 4.0F);
             out.along_x = turns(w * (eye.metres.x + texture.drift.x * seconds));
             out.along_y = turns(w * (eye.metres.y + texture.drift.y * seconds));
             out.half_x = turns(0.5 * w * eye.metres.x + p);

@@ -42,7 +42,7 @@ void TextureValues(const FrameTexture& texture, std::span<const float> x, std::s
         const auto none = hn::Zero(d);
         auto sums = TextureSums<decltype(hn::Zero(d))>::none(d);
         add_terms(d, texture, false, 0, texture.count, p, none, none, sums);
-        hn::Store(sums.sample().value, d, pt);
+        hn::Store(sums.value(), d, pt);
         std::copy_n(pt, left, t.begin() + static_cast<std::ptrdiff_t>(i));
     }
 }

@@ -27,12 +27,13 @@ HWY_INLINE Appearance<V> painted(D d, const ShadeInput& in, const Setting<V>& se
     const FramePaint& paint = *in.paint;
     Appearance<V> seen{setting.lit, setting.kept, hn::Set(d, 1.0F)};
     if (paint.texture != nullptr) {
-        const TextureSample<V> t = sums.sample();
-        seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t.value, setting.lit), setting.lit);
+        const V t = sums.value();
+        seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t, setting.lit), setting.lit);
         if (paint.translucent) {
             // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance s^2/12.
-            const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), t.lost_variance, hn::Set(d, paint.softness * paint.softness));
-            seen.edge = hn::MulAdd(hn::Sub(t.value, setting.threshold), inverse_sqrt(d, ramp2), hn::Set(d, 0.5F));
+            const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), sums.lost_variance(*paint.texture),
+                                       hn::Set(d, paint.softness * paint.softness));
+            seen.edge = hn::MulAdd(hn::Sub(t, setting.threshold), inverse_sqrt(d, ramp2), hn::Set(d, 0.5F));
         }
     }
     if (in.light->haze) seen.light = hn::Mul(seen.light, setting.kept);

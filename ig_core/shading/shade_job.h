@@ -14,13 +14,14 @@ namespace quadrig {
 /// reduced in double, so that the float part stays small wherever the texture is not yet filtered away.
 struct FrameTexture {
     struct Term {
-        float weight;                                    ///< C_i / sum C
-        float root_half_weight;                          ///< sqrt(weight / 2)
         float turns_per_metre;                           ///< w_i / 2 pi
+        float root_amplitude;                            ///< sqrt of the sine's amplitude in a factor, C_i / (2 sum C)
+        float fade;                                      ///< what of it a footprint of 1 m^2 takes away: w_i^2 / 48
         float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
     };
     std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
     int count = 0;
+    float variance = 0;  ///< of either factor, unfiltered
     SineMethod sine = SineMethod::polynomial;
     float vertical = 0;  ///< u of Eq 15
 };

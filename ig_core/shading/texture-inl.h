@@ -15,22 +15,23 @@ namespace quadrig {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// T, and the variance of what filtering took out of it.
-template <class V>
-struct TextureSample {
-    V value, lost_variance;
-};
-
-/// The two factors of Eq 15 and what filtering took out of each, over some of the terms.
+/// The two factors of Eq 15 and the squared amplitudes that filtering has left in each, over some of the terms.
 template <class V>
 struct TextureSums {
-    V x, y, lost_x, lost_y;
+    V x, y, kept_x, kept_y;
     template <class D>
     static HWY_INLINE TextureSums none(D d) {
         return {hn::Set(d, 0.5F), hn::Set(d, 0.5F), hn::Zero(d), hn::Zero(d)};
     }
-    [[nodiscard]] HWY_INLINE TextureSample<V> sample() const {
-        return {hn::Mul(x, y), hn::MulAdd(hn::Mul(x, x), lost_y, hn::Mul(hn::MulAdd(y, y, lost_y), lost_x))};
+    /// T
+    [[nodiscard]] HWY_INLINE V value() const { return hn::Mul(x, y); }
+    /// Of T: the variance of what filtering took out of it.
+    [[nodiscard]] HWY_INLINE V lost_variance(const FrameTexture& texture) const {
+        const hn::DFromV<V> d;
+        const V half = hn::Set(d, 0.5F), variance = hn::Set(d, texture.variance);
+        const V lost_x = hn::Max(hn::Zero(d), hn::NegMulAdd(half, kept_x, variance));
+        const V lost_y = hn::Max(hn::Zero(d), hn::NegMulAdd(half, kept_y, variance));
+        return hn::MulAdd(hn::Mul(x, x), lost_y, hn::Mul(hn::MulAdd(y, y, lost_y), lost_x));
     }
 };
 
@@ -38,58 +39,52 @@ struct TextureSums {
 /// `sums`. `footprint_x` and `footprint_y` are the mean squared growth of the two sine families' arguments per unit
 /// frequency over a pixel (m^2): each sine is faded as (1 - w^2 footprint / 48)^2, which follows the box filter's
 /// exp(-w^2 footprint / 24) and ends a little above the sampling frequency, where the term is dropped.
-template <SineMethod kMethod, bool kVertical, bool kLostVariance, class D, class V = hn::Vec<D>>
+template <SineMethod kMethod, bool kVertical, bool kKept, class D, class V = hn::Vec<D>>
 HWY_INLINE void add_terms(D d, const FrameTexture& texture, int first, int last, const Vec3<V>& p, V footprint_x,
                           V footprint_y, TextureSums<V>& sums) {
-    constexpr float kFade = 4.0F * 9.8696044F / 48.0F;  // (2 pi)^2 / 48, for frequencies in turns
     const V zero = hn::Zero(d), quarter = hn::Set(d, 0.25F), half = hn::Set(d, 0.5F);
     using SineOf = Sine<V, kMethod>;
     const SineOf sine(d, 1.0F), across(d, 0.25F), up(d, 0.5F * texture.vertical);
+    const V px = p.x, py = p.y, half_x = hn::Mul(half, p.x), half_y = hn::Mul(half, p.y), half_z = hn::Mul(half, p.z);
+    // Sums are kept in registers while terms are added.
+    TextureSums<V> sum = sums;
     for (int i = first; i < last; ++i) {
         const FrameTexture::Term& term = texture.terms[static_cast<std::size_t>(i)];
-        const float w = term.turns_per_metre, root = term.root_half_weight;
-        const V full_keep = hn::Set(d, root), fade = hn::Set(d, root * w * w * kFade);
-        const V keep_x = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, full_keep));
-        const V keep_y = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, full_keep));
+        const V full = hn::Set(d, term.root_amplitude), fade = hn::Set(d, term.fade);
+        const V keep_x = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, full));
+        const V keep_y = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, full));
+        if (hn::AllTrue(d, hn::Eq(hn::Max(keep_x, keep_y), zero))) break;
         const V amplitude_x = hn::Mul(keep_x, keep_x), amplitude_y = hn::Mul(keep_y, keep_y);
-        if constexpr (kLostVariance) {
-            const V variance = hn::Set(d, 0.125F * term.weight * term.weight);
-            sums.lost_x = hn::Add(hn::NegMulAdd(hn::Mul(half, amplitude_x), amplitude_x, variance), sums.lost_x);
-            sums.lost_y = hn::Add(hn::NegMulAdd(hn::Mul(half, amplitude_y), amplitude_y, variance), sums.lost_y);
+        if constexpr (kKept) {
+            sum.kept_x = hn::MulAdd(amplitude_x, amplitude_x, sum.kept_x);
+            sum.kept_y = hn::MulAdd(amplitude_y, amplitude_y, sum.kept_y);
         }
-        if (hn::AllTrue(d, hn::Eq(hn::Max(keep_x, keep_y), zero))) {
-            for (++i; i < last; ++i) {
-                const float rest = texture.terms[static_cast<std::size_t>(i)].weight;
-                sums.lost_x = hn::Add(sums.lost_x, hn::Set(d, 0.125F * rest * rest));
-                sums.lost_y = hn::Add(sums.lost_y, hn::Set(d, 0.125F * rest * rest));
-            }
-            return;
-        }
-        const V full = hn::Set(d, w), halved = hn::Set(d, 0.5F * w);
-        V phase_x = hn::MulAdd(full, p.x, hn::Set(d, term.along_x));
-        V phase_y = hn::MulAdd(full, p.y, hn::Set(d, term.along_y));
-        phase_x = across.add(hn::MulAdd(halved, p.y, hn::Set(d, term.half_y)), phase_x);
-        phase_y = across.add(hn::MulAdd(halved, p.x, hn::Set(d, term.half_x)), phase_y);
+        const V w = hn::Set(d, term.turns_per_metre);
+        V phase_x = hn::MulAdd(w, px, hn::Set(d, term.along_x));
+        V phase_y = hn::MulAdd(w, py, hn::Set(d, term.along_y));
+        phase_x = across.add(hn::MulAdd(w, half_y, hn::Set(d, term.half_y)), phase_x);
+        phase_y = across.add(hn::MulAdd(w, half_x, hn::Set(d, term.half_x)), phase_y);
         if constexpr (kVertical) {
-            const V r = SineOf::reduced(hn::MulAdd(halved, p.z, hn::Set(d, term.half_z)));
+            const V r = SineOf::reduced(hn::MulAdd(w, half_z, hn::Set(d, term.half_z)));
             const auto sine_z = up.of_reduced(r), cosine_z = up.of_reduced(hn::Sub(quarter, hn::Abs(r)));
             phase_x = hn::MulAdd(sine_z.parabola, sine_z.over, phase_x);
             phase_y = hn::MulAdd(cosine_z.parabola, cosine_z.over, phase_y);
         }
-        sums.x = sine.add(phase_x, amplitude_x, sums.x);
-        sums.y = sine.add(phase_y, amplitude_y, sums.y);
+        sum.x = sine.add(phase_x, amplitude_x, sum.x);
+        sum.y = sine.add(phase_y, amplitude_y, sum.y);
     }
+    sums = sum;
 }
 
 template <SineMethod kMethod, class D, class V = hn::Vec<D>>
-HWY_NOINLINE void add_terms_by(D d, const FrameTexture& texture, bool lost_variance, int first, int last,
+HWY_NOINLINE void add_terms_by(D d, const FrameTexture& texture, bool kept, int first, int last,
                                const Vec3<V>& p, V footprint_x, V footprint_y, TextureSums<V>& sums) {
     if (texture.vertical != 0.0F) {
-        if (lost_variance)
+        if (kept)
             add_terms<kMethod, true, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
         else
             add_terms<kMethod, true, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
-    } else if (lost_variance) {
+    } else if (kept) {
         add_terms<kMethod, false, true>(d, texture, first, last, p, footprint_x, footprint_y, sums);
     } else {
         add_terms<kMethod, false, false>(d, texture, first, last, p, footprint_x, footprint_y, sums);
@@ -98,10 +93,10 @@ HWY_NOINLINE void add_terms_by(D d, const FrameTexture& texture, bool lost_varia
 
 /// add_terms() as the texture, its use and the frame's quality need it.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void add_terms(D d, const FrameTexture& texture, bool lost_variance, int first, int last, const Vec3<V>& p,
+HWY_INLINE void add_terms(D d, const FrameTexture& texture, bool kept, int first, int last, const Vec3<V>& p,
                           V footprint_x, V footprint_y, TextureSums<V>& sums) {
     const auto add = [&]<SineMethod kMethod>(std::integral_constant<SineMethod, kMethod>) HWY_ATTR {
-        add_terms_by<kMethod>(d, texture, lost_variance, first, last, p, footprint_x, footprint_y, sums);
+        add_terms_by<kMethod>(d, texture, kept, first, last, p, footprint_x, footprint_y, sums);
     };
     switch (texture.sine) {
         case SineMethod::polynomial:

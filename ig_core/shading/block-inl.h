@@ -19,24 +19,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 HWY_INLINE int term_count(const ShadeInput& in) { return in.paint->texture == nullptr ? 0 : in.paint->texture->count; }
 
-/// What light, haze and filtering make of a surface point, whatever its texture.
+/// What light and haze make of a surface point, whatever its texture.
 template <class V>
 struct Setting {
-    V lit;   ///< intensity without texture
-    V kept;  ///< what the haze lets through
-    Footprint<V> footprint;
+    V lit;        ///< intensity without texture
+    V kept;       ///< what the haze lets through
     V threshold;  ///< of translucence
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const SurfacePoint<V>& point,
-                                 const Footprint<V>& footprint) {
+HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const SurfacePoint<V>& point) {
     const V one = hn::Set(d, 1.0F);
     const FrameLight& light = *in.light;
     const FramePaint& paint = *in.paint;
     const V facing = hn::Max(hn::Zero(d), hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
     const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
-    Setting<V> setting{lit, one, footprint, one};
+    Setting<V> setting{lit, one, one};
     if (light.haze) setting.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), hn::Set(d, light.extinction)));
     if (paint.translucent)
         setting.threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
@@ -44,72 +42,44 @@ HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const Surf
     return setting;
 }
 
-/// Settings of a block's samples.
+/// Settings of many points.
 struct Settings {
-    SampleValues lit, kept, footprint_x, footprint_y, threshold;
+    Values lit, kept, threshold;
 
-    template <class D>
-    [[nodiscard]] HWY_INLINE Footprint<hn::Vec<D>> footprint(D d, std::size_t i) const {
-        return {footprint_x.load(d, i), footprint_y.load(d, i)};
-    }
-    template <class D>
-    [[nodiscard]] HWY_INLINE Setting<hn::Vec<D>> load(D d, std::size_t i) const {
-        return {lit.load(d, i), kept.load(d, i), footprint(d, i), threshold.load(d, i)};
-    }
     template <class D, class V = hn::Vec<D>>
     HWY_INLINE void store(D d, const Setting<V>& setting, std::size_t i) {
         lit.store(d, setting.lit, i), kept.store(d, setting.kept, i), threshold.store(d, setting.threshold, i);
-        footprint_x.store(d, setting.footprint.x, i), footprint_y.store(d, setting.footprint.y, i);
     }
-    /// Columns c and on of the block.
+    template <class D>
+    [[nodiscard]] HWY_INLINE Setting<hn::Vec<D>> load(D d, std::size_t i) const {
+        return {lit.load(d, i), kept.load(d, i), threshold.load(d, i)};
+    }
+    /// That of a block's columns c and on, these being its samples'.
     template <class D, class V = hn::Vec<D>>
     [[nodiscard]] HWY_INLINE Setting<V> between(D d, const ShadeInput& in, std::size_t c) const {
         const V one = hn::Set(d, 1.0F);
-        return {between_coarse(d, lit, c),
-                in.light->haze ? between_coarse(d, kept, c) : one,
-                {between_coarse(d, footprint_x, c), between_coarse(d, footprint_y, c)},
+        return {between_coarse(d, lit, c), in.light->haze ? between_coarse(d, kept, c) : one,
                 in.paint->translucent ? between_coarse(d, threshold, c) : one};
     }
 };
 
-/// Sums of a texture's terms, of many points.
-template <class Values>
-struct SumsOfTerms {
-    Values x, y, kept_x, kept_y;
-
-    template <class D>
-    [[nodiscard]] HWY_INLINE TextureSums<hn::Vec<D>> load(D d, std::size_t i, bool kept) const {
-        if (!kept) return {x.load(d, i), y.load(d, i), hn::Zero(d), hn::Zero(d)};
-        return {x.load(d, i), y.load(d, i), kept_x.load(d, i), kept_y.load(d, i)};
-    }
-    template <class D, class V = hn::Vec<D>>
-    HWY_INLINE void store(D d, const TextureSums<V>& sums, std::size_t i) {
-        x.store(d, sums.x, i), y.store(d, sums.y, i), kept_x.store(d, sums.kept_x, i), kept_y.store(d, sums.kept_y, i);
-    }
-};
-
-/// What is known of a block of columns by interpolation: the sums of the texture's first terms and, if it is steady,
-/// the setting.
-struct KnownBlock {
-    int terms = 0;
-    SumsOfTerms<BlockValues> sums;
-    const Settings* setting = nullptr;  ///< of samples
-};
-
-/// Terms [first, last) of the surface's texture at a point, added to `sums`.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void add_terms_at(D d, const ShadeInput& in, int first, int last, const Vec3<V>& ray, V depth,
-                             const Footprint<V>& footprint, TextureSums<V>& sums) {
-    if (first >= last) return;
-    const Vec3<V> p{hn::Mul(depth, ray.x), hn::Mul(depth, ray.y), hn::Mul(depth, ray.z)};
-    add_terms(d, *in.paint->texture, in.paint->translucent, first, last, p, footprint.x, footprint.y, sums);
+HWY_INLINE void store_point(D d, const Vec3<V>& ray, V depth, TexturePoints& points, std::size_t i) {
+    points.x.store(d, hn::Mul(depth, ray.x), i);
+    points.y.store(d, hn::Mul(depth, ray.y), i);
+    points.z.store(d, hn::Mul(depth, ray.z), i);
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_footprint(D d, const Footprint<V>& footprint, TexturePoints& points, std::size_t i) {
+    points.footprint_x.store(d, footprint.x, i);
+    points.footprint_y.store(d, footprint.y, i);
 }
 
 /// A block's samples, and what they tell about it.
 struct BlockProbe {
-    SampleValues depth;
-    Settings setting;
-    bool steady = false;        ///< the setting may be interpolated
+    TexturePoints points;
+    Settings settings;
+    bool steady = false;        ///< settings and footprints may be interpolated
     float most_step2 = 0.0F;    ///< largest footprint of a step to the next column, m^2
     float least_pixel2 = 0.0F;  ///< least footprint of a pixel, m^2
 
@@ -140,8 +110,8 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
     for (std::size_t i = 0; i < BlockSamples::kCount; i += hn::Lanes(d)) {
         const V column = samples.column(d, i);
         const Vec3<V> ray = ray_at(d, in, column);
-        const V length = vector_length(d, ray);
-        const SurfacePoint<V> point = on_surface(d, in, column, ray);
+        const Length<V> length = length_of(d, ray);
+        const SurfacePoint<V> point = on_surface(d, in, column, ray, entry_at(d, in, column, ray));
         probe.steady = probe.steady && changes_little(d, in, column, stride, point);
         const V facing = dot(point.normal, splat(d, in.light->to_sun));
         lit = lit && hn::AllTrue(d, hn::Ge(facing, hn::Zero(d)));
@@ -150,8 +120,9 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
         if (term_count(in) > 0) f = pixel_footprint(d, in, point, ray, length);
         step2 = hn::Max(step2, hn::Max(f.column.x, f.column.y));
         pixel2 = hn::Min(pixel2, hn::Min(f.pixel.x, f.pixel.y));
-        probe.depth.store(d, point.depth, i);
-        probe.setting.store(d, setting_at(d, in, length, point, f.pixel), i);
+        store_point(d, ray, point.depth, probe.points, i);
+        store_footprint(d, f.pixel, probe.points, i);
+        probe.settings.store(d, setting_at(d, in, length.value, point), i);
     }
     probe.most_step2 = hn::GetLane(hn::MaxOfLanes(d, step2));
     probe.least_pixel2 = hn::GetLane(hn::MinOfLanes(d, pixel2));
@@ -159,30 +130,29 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
     probe.steady = probe.steady && (lit || in_shadow);
 }
 
-/// Interpolates what may be in a steady block: the slow terms from fine samples between its own.
-HWY_NOINLINE void interpolate_block(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
-                                    KnownBlock& known) {
+/// Sums of a steady block's slow terms, as many as are returned, at all its columns: between fine samples.
+HWY_NOINLINE int interpolate_slow_terms(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
+                                        TextureSums& sums) {
+    const int terms = probe.slow_terms(in, kFineStride);
+    if (terms == 0) return 0;
     const hn::ScalableTag<float> d;
-    known.setting = &probe.setting;
-    known.terms = probe.slow_terms(in, kFineStride);
-    if (known.terms == 0) return;
-    FineValues footprint_x, footprint_y;
-    to_fine(probe.setting.footprint_x, footprint_x);
-    to_fine(probe.setting.footprint_y, footprint_y);
-    SumsOfTerms<FineValues> at;
+    TexturePoints points;
     for (std::size_t i = 0; i < kFineCount; i += hn::Lanes(d)) {
         const auto column = samples.fine_column(d, i);
         const auto ray = ray_at(d, in, column);
-        auto sums = TextureSums<hn::Vec<decltype(d)>>::none(d);
-        add_terms_at(d, in, 0, known.terms, ray, on_surface(d, in, column, ray).depth,
-                     {footprint_x.load(d, i), footprint_y.load(d, i)}, sums);
-        at.store(d, sums, i);
+        store_point(d, ray, entry_at(d, in, column, ray).depth, points, i);
     }
-    to_columns(at.x, known.sums.x);
-    to_columns(at.y, known.sums.y);
-    if (!in.paint->translucent) return;
-    to_columns(at.kept_x, known.sums.kept_x);
-    to_columns(at.kept_y, known.sums.kept_y);
+    to_fine(probe.points.footprint_x, points.footprint_x);
+    to_fine(probe.points.footprint_y, points.footprint_y);
+    TextureSums fine;
+    add_terms(*in.paint->texture, in.paint->translucent, 0, terms, points, kFineCount, fine);
+    to_columns(fine.x, sums.x);
+    to_columns(fine.y, sums.y);
+    if (in.paint->translucent) {
+        to_columns(fine.kept_x, sums.kept_x);
+        to_columns(fine.kept_y, sums.kept_y);
+    }
+    return terms;
 }
 
 }  // namespace HWY_NAMESPACE

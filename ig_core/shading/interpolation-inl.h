@@ -7,11 +7,9 @@
 #define QUADRIG_INTERPOLATION_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <array>
 
-#include "ig_core/shading/shade_job.h"
+#include "ig_core/shading/samples-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
@@ -23,25 +21,9 @@ constexpr std::size_t kFineStride = 4, kCoarseStride = 16;
 /// Largest growth of a sine's argument between samples, rad rms. A cubic through four samples is then wrong by 3/128 of
 /// its fourth power, 1 % of that sine; of the slower ones far less.
 constexpr float kLargestPhaseStep = 0.8F;
-constexpr std::size_t kBlockIntervals = 12;
-
-template <std::size_t kCount>
-struct Values {
-    alignas(64) float at[kCount + kShadePadding];
-    template <class D>
-    [[nodiscard]] HWY_INLINE hn::Vec<D> load(D d, std::size_t i) const {
-        return hn::Load(d, at + i);
-    }
-    template <class D>
-    HWY_INLINE void store(D d, hn::Vec<D> values, std::size_t i) {
-        hn::Store(values, d, at + i);
-    }
-};
-using SampleValues = Values<kBlockIntervals + 4>;
-using BlockValues = Values<kBlockIntervals * kCoarseStride>;
+constexpr std::size_t kBlockIntervals = kMostSamples / kCoarseStride;
 /// Samples of the fine stride of a block and beside it.
 constexpr std::size_t kFineCount = kCoarseStride / kFineStride * (kBlockIntervals + 1);
-using FineValues = Values<kFineCount>;
 
 /// Weights of samples -1, 0, 1, 2 in the cubic through them (Lagrange), at `share` of the way from sample 0 to
 /// sample 1.
@@ -72,7 +54,7 @@ HWY_INLINE void quarter_intervals(const float* samples, std::size_t intervals, f
 
 /// Sixteen samples about a block.
 struct BlockSamples {
-    static constexpr std::size_t kCount = 16, kColumns = kBlockIntervals * kCoarseStride;
+    static constexpr std::size_t kCount = 16;
     std::size_t first_column;
 
     /// Columns of samples i and on. The first one stands more than an interval before the block: the fine samples
@@ -94,10 +76,10 @@ struct BlockSamples {
 };
 
 /// The two steps from samples to columns.
-HWY_INLINE void to_fine(const SampleValues& samples, FineValues& fine) {
+HWY_INLINE void to_fine(const Values& samples, Values& fine) {
     quarter_intervals(samples.at, kBlockIntervals + 1, fine.at);
 }
-HWY_INLINE void to_columns(const FineValues& fine, BlockValues& block) {
+HWY_INLINE void to_columns(const Values& fine, Values& block) {
     quarter_intervals(fine.at, 4 * kBlockIntervals, block.at);
 }
 
@@ -116,7 +98,7 @@ inline constexpr CoarseWeights kCoarseWeights;
 
 /// Columns c and on of a block in one step, which does without memory between two.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V between_coarse(D d, const SampleValues& samples, std::size_t c) {
+HWY_INLINE V between_coarse(D d, const Values& samples, std::size_t c) {
     const float* first = samples.at + c / kCoarseStride;
     V sum = hn::Zero(d);
     for (std::size_t i = 0; i < 5; ++i)

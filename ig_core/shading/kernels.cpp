@@ -29,21 +29,14 @@ std::uint64_t Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offse
 
 void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                    std::span<const float> z, std::span<float> t) {
-    const hn::ScalableTag<float> d;
-    const std::size_t n = hn::Lanes(d);
-    for (std::size_t i = 0; i < t.size(); i += n) {
-        // Short tails go through a padded copy: this entry is for tests, not for frames.
-        alignas(64) float px[64] = {}, py[64] = {}, pz[64] = {}, pt[64] = {};
-        const std::size_t left = std::min(n, t.size() - i);
-        std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(i), left, px);
-        std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(i), left, py);
-        std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(i), left, pz);
-        const Vec3<decltype(hn::Zero(d))> p{hn::Load(d, px), hn::Load(d, py), hn::Load(d, pz)};
-        const auto none = hn::Zero(d);
-        auto sums = TextureSums<decltype(hn::Zero(d))>::none(d);
-        add_terms(d, texture, false, 0, texture.count, p, none, none, sums);
-        hn::Store(sums.value(), d, pt);
-        std::copy_n(pt, left, t.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto copy = [](std::span<const float> from, Values& to) { std::copy(from.begin(), from.end(), to.at); };
+    for (std::size_t i = 0; i < t.size(); i += kMostSamples) {
+        const std::size_t count = std::min(kMostSamples, t.size() - i);
+        TexturePoints points{};
+        copy(x.subspan(i, count), points.x), copy(y.subspan(i, count), points.y), copy(z.subspan(i, count), points.z);
+        TextureSums sums;
+        add_terms(texture, false, 0, texture.count, points, count, sums);
+        for (std::size_t k = 0; k < count; ++k) t[i + k] = sums.x.at[k] * sums.y.at[k];
     }
 }
 

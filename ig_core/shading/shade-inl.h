@@ -22,42 +22,24 @@ struct Appearance {
     V edge;   ///< opacity, before it is cut to 0..1
 };
 
+/// Sample i of those that `sums` are of.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Appearance<V> painted(D d, const ShadeInput& in, const Setting<V>& setting, const TextureSums<V>& sums) {
+HWY_INLINE Appearance<V> painted(D d, const ShadeInput& in, const Setting<V>& setting, const TextureSums& sums,
+                                 std::size_t i) {
     const FramePaint& paint = *in.paint;
     Appearance<V> seen{setting.lit, setting.kept, hn::Set(d, 1.0F)};
     if (paint.texture != nullptr) {
-        const V t = sums.value();
+        const V t = sums.value(d, i);
         seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t, setting.lit), setting.lit);
         if (paint.translucent) {
             // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance s^2/12.
-            const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), sums.lost_variance(*paint.texture),
+            const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), sums.lost_variance(d, *paint.texture, i),
                                        hn::Set(d, paint.softness * paint.softness));
             seen.edge = hn::MulAdd(hn::Sub(t, setting.threshold), inverse_sqrt(d, ramp2), hn::Set(d, 0.5F));
         }
     }
     if (in.light->haze) seen.light = hn::Mul(seen.light, setting.kept);
     return seen;
-}
-
-/// Appearance of a surface at a few columns, at `in_block` and on of what is known of a block already.
-template <bool kSteady, class D, class V = hn::Vec<D>>
-HWY_INLINE Appearance<V> appearance(D d, const ShadeInput& in, V column, const KnownBlock& known,
-                                    std::size_t in_block) {
-    const Vec3<V> ray = ray_at(d, in, column);
-    const SurfacePoint<V> point = on_surface(d, in, column, ray);
-    Setting<V> setting;
-    if constexpr (kSteady) {
-        setting = known.setting->between(d, in, in_block);
-    } else {
-        const V length = vector_length(d, ray);
-        Footprint<V> footprint{hn::Zero(d), hn::Zero(d)};
-        if (in.paint->texture != nullptr) footprint = pixel_footprint(d, in, point, ray, length).pixel;
-        setting = setting_at(d, in, length, point, footprint);
-    }
-    auto sums = known.terms > 0 ? known.sums.load(d, in_block, in.paint->translucent) : TextureSums<V>::none(d);
-    add_terms_at(d, in, known.terms, term_count(in), ray, point.depth, setting.footprint, sums);
-    return painted(d, in, setting, sums);
 }
 
 /// `kPixels` neighbours are given each sample.
@@ -78,24 +60,29 @@ HWY_INLINE void store(D d, const ShadeInput& in, const Appearance<V>& seen, Shad
     write(hn::Clamp(seen.edge, hn::Zero(d), hn::Set(d, 1.0F)), buffer.opacity);
 }
 
+/// All terms of the surface's texture from `first` on.
+HWY_INLINE void add_terms(const ShadeInput& in, int first, const TexturePoints& points, std::size_t count,
+                          TextureSums& sums) {
+    if (in.paint->texture != nullptr)
+        add_terms(*in.paint->texture, in.paint->translucent, first, term_count(in), points, count, sums);
+}
+
 /// A smooth block: its samples shaded, the rest interpolated.
-HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
-                               std::size_t count, ShadeBuffer& buffer, std::size_t offset) {
+HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockProbe& probe, std::size_t count, ShadeBuffer& buffer,
+                               std::size_t offset) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const std::size_t n = hn::Lanes(d);
-    SampleValues light, kept, edge;
+    TextureSums sums;
+    add_terms(in, 0, probe.points, BlockSamples::kCount, sums);
+    Values light, kept, edge;
     for (std::size_t i = 0; i < BlockSamples::kCount; i += n) {
-        const Setting<V> setting = probe.setting.load(d, i);
-        auto sums = TextureSums<V>::none(d);
-        add_terms_at(d, in, 0, term_count(in), ray_at(d, in, samples.column(d, i)), probe.depth.load(d, i),
-                     setting.footprint, sums);
-        const Appearance<V> seen = painted(d, in, setting, sums);
+        const Appearance<V> seen = painted(d, in, probe.settings.load(d, i), sums, i);
         light.store(d, seen.light, i), kept.store(d, seen.kept, i), edge.store(d, seen.edge, i);
     }
-    BlockValues all_light, all_kept, all_edge;
-    const auto interpolate = [&](const SampleValues& from, BlockValues& to) HWY_ATTR {
-        FineValues fine;
+    Values all_light, all_kept, all_edge;
+    const auto interpolate = [&](const Values& from, Values& to) HWY_ATTR {
+        Values fine;
         to_fine(from, fine);
         to_columns(fine, to);
     };
@@ -110,18 +97,67 @@ HWY_NOINLINE void shade_smooth(const ShadeInput& in, const BlockSamples& samples
     }
 }
 
-/// One sample for every two pixels, taken where they meet.
-HWY_NOINLINE void shade_pairs(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+/// Samples of a surface that stand for `kPixels` columns each, in their middle: for `count` columns from `first` on.
+template <std::size_t kPixels = 1>
+struct SampledColumns {
+    std::size_t first, count;
+    [[nodiscard]] std::size_t samples() const { return (count + kPixels - 1) / kPixels; }
+    template <class D, class V = hn::Vec<D>>
+    [[nodiscard]] HWY_INLINE V at(D d, const ShadeInput& in, std::size_t i) const {
+        const V middle = hn::Set(d, static_cast<float>(first + kPixels * i) + 0.5F * static_cast<float>(kPixels - 1));
+        return hn::Clamp(hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(kPixels)), middle),
+                         hn::Set(d, in.least_column), hn::Set(d, in.most_column));
+    }
+};
+
+/// Columns each computed by itself: near limbs, and where there are too few for a block.
+template <std::size_t kPixels>
+HWY_NOINLINE void shade_each(const ShadeInput& in, const SampledColumns<kPixels>& columns, ShadeBuffer& buffer,
+                             std::size_t offset) {
+    const hn::ScalableTag<float> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t n = hn::Lanes(d), samples = columns.samples();
+    Values depth, against;
+    for (std::size_t i = 0; i < samples; i += n) {
+        const V column = columns.at(d, in, i);
+        const Entry<V> entry = entry_at(d, in, column, ray_at(d, in, column));
+        depth.store(d, entry.depth, i), against.store(d, entry.against, i);
+    }
+    TexturePoints points;
+    Settings settings;
+    for (std::size_t i = 0; i < samples; i += n) {
+        const V column = columns.at(d, in, i);
+        const Vec3<V> ray = ray_at(d, in, column);
+        const Length<V> length = length_of(d, ray);
+        const SurfacePoint<V> point = on_surface(d, in, column, ray, {depth.load(d, i), against.load(d, i)});
+        settings.store(d, setting_at(d, in, length.value, point), i);
+        if (in.paint->texture == nullptr) continue;
+        store_point(d, ray, point.depth, points, i);
+        store_footprint(d, pixel_footprint(d, in, point, ray, length).pixel, points, i);
+    }
+    TextureSums sums;
+    add_terms(in, 0, points, samples, sums);
+    for (std::size_t i = 0; i < samples; i += n)
+        store<kPixels>(d, in, painted(d, in, settings.load(d, i), sums, i), buffer, offset + kPixels * i);
+}
+
+/// Columns of a steady block, whose first terms `sums` has already.
+HWY_NOINLINE void shade_steady(const ShadeInput& in, const BlockProbe& probe, const SampledColumns<>& columns,
+                               int known_terms, TextureSums& sums, ShadeBuffer& buffer, std::size_t offset) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
     const std::size_t n = hn::Lanes(d);
-    const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
-    KnownBlock none;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); i += 2 * n) {
-        const V column = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, 2.0F), hn::Set(d, static_cast<float>(i) + 0.5F));
-        const auto seen = appearance<false>(d, in, hn::Clamp(column, least, most), none, 0);
-        store<2>(d, in, seen, buffer, offset + i);
+    TexturePoints points;
+    for (std::size_t i = 0; i < columns.count; i += n) {
+        const V column = columns.at(d, in, i);
+        const Vec3<V> ray = ray_at(d, in, column);
+        store_point(d, ray, entry_at(d, in, column, ray).depth, points, i);
+        points.footprint_x.store(d, between_coarse(d, probe.points.footprint_x, i), i);
+        points.footprint_y.store(d, between_coarse(d, probe.points.footprint_y, i), i);
     }
+    add_terms(in, known_terms, points, columns.count, sums);
+    for (std::size_t i = 0; i < columns.count; i += n)
+        store(d, in, painted(d, in, probe.settings.between(d, in, i), sums, i), buffer, offset + i);
 }
 
 /// Whether a block is worth probing: on a quadric limbs have to be far.
@@ -130,44 +166,37 @@ HWY_INLINE bool may_be_steady(const ShadeInput& in, const BlockSamples& samples)
            (limb_is_far(in, samples.first(), kCoarseStride) && limb_is_far(in, samples.last(), kCoarseStride));
 }
 
+/// Returns how many terms were evaluated at columns themselves.
 HWY_INLINE std::uint64_t shade_surface(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
+    const auto total = static_cast<std::size_t>(in.count);
     if (in.pairs) {
-        shade_pairs(in, buffer, offset);
+        for (std::size_t i = 0; i < total; i += kMostSamples)
+            shade_each(in, SampledColumns<2>{i, std::min(total - i, kMostSamples)}, buffer, offset + i);
         return 0;
     }
-    const hn::ScalableTag<float> d;
-    using V = hn::Vec<decltype(d)>;
-    const auto total = static_cast<std::size_t>(in.count);
-    const V least = hn::Set(d, in.least_column), most = hn::Set(d, in.most_column);
-    KnownBlock known;
     BlockProbe probe;
     std::uint64_t terms = 0;
     for (std::size_t i = 0; i < total;) {
         const std::size_t left = total - i;
-        std::size_t count = std::min(left, BlockSamples::kColumns / 2);
-        known.terms = 0, known.setting = nullptr;
         const BlockSamples samples{i};
         // A block much shorter than its samples reach is as soon done without.
-        if (left >= BlockSamples::kColumns / 2 && in.smooth_stretches && may_be_steady(in, samples)) {
+        probe.steady = false;
+        if (left >= kMostSamples / 2 && in.smooth_stretches && may_be_steady(in, samples))
             probe_block(in, samples, probe);
-            if (probe.steady) {
-                count = std::min(left, BlockSamples::kColumns);
-                if (probe.slow_terms(in, kCoarseStride) == term_count(in)) {
-                    shade_smooth(in, samples, probe, count, buffer, offset + i);
-                    i += count;
-                    continue;
-                }
-                interpolate_block(in, samples, probe, known);
-            }
+        const SampledColumns<> columns{i, std::min(left, probe.steady ? kMostSamples : kMostSamples / 2)};
+        int known_terms = 0;
+        if (!probe.steady) {
+            shade_each(in, columns, buffer, offset + i);
+        } else if (probe.slow_terms(in, kCoarseStride) == term_count(in)) {
+            known_terms = term_count(in);
+            shade_smooth(in, probe, columns.count, buffer, offset + i);
+        } else {
+            TextureSums sums;
+            known_terms = interpolate_slow_terms(in, samples, probe, sums);
+            shade_steady(in, probe, columns, known_terms, sums, buffer, offset + i);
         }
-        terms += count * static_cast<std::uint64_t>(term_count(in) - known.terms);
-        for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
-            const V column = hn::Clamp(hn::Iota(d, static_cast<float>(i + c)), least, most);
-            const Appearance<V> seen = known.setting != nullptr ? appearance<true>(d, in, column, known, c)
-                                                                : appearance<false>(d, in, column, known, c);
-            store(d, in, seen, buffer, offset + i + c);
-        }
-        i += count;
+        terms += columns.count * static_cast<std::uint64_t>(term_count(in) - known_terms);
+        i += columns.count;
     }
     return terms;
 }

@@ -33,11 +33,26 @@ HWY_INLINE Vec3<V> ray_at(D d, const ShadeInput& in, V column) {
     return mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
 }
 
+/// Where a ray enters a surface.
+template <class V>
+struct Entry {
+    V depth;
+    V against;  ///< -N.d, which for quadrics is sqrt(L)
+};
+
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
-    const V zero = hn::Zero(d);
-    const V xi = hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
-    const V a = hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.a[2]), hn::Set(d, in.a[1])), hn::Set(d, in.a[0]));
+HWY_INLINE V quadric_xi(D d, const ShadeInput& in, V column) {
+    return hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V quadric_a(D d, const ShadeInput& in, V xi) {
+    return hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.a[2]), hn::Set(d, in.a[1])), hn::Set(d, in.a[0]));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Entry<V> entry_into_quadric(D d, const ShadeInput& in, V column) {
+    const V zero = hn::Zero(d), xi = quadric_xi(d, in, column);
+    const V a = quadric_a(d, in, xi);
     const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
     const V limb = hn::Max(
         zero, hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.limb[2]), hn::Set(d, in.limb[1])), hn::Set(d, in.limb[0])));
@@ -46,17 +61,27 @@ HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const
     const auto before = hn::Le(b, zero);
     const V numerator = hn::IfThenElse(before, hn::Set(d, in.c), hn::Add(b, root));
     const V denominator = hn::IfThenElse(before, hn::Sub(root, b), hn::Neg(a));
-    V depth = hn::Div(numerator, denominator);
-    depth =
-        hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth));
-    const Vec3<V> q = mul_add(depth, ray, splat(d, in.eye_from_anchor));
+    const V depth = hn::Div(numerator, denominator);
+    return {
+        hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth)),
+        root};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const Vec3<V>& ray, const Entry<V>& entry) {
+    const Vec3<V> q = mul_add(entry.depth, ray, splat(d, in.eye_from_anchor));
     const V xx = hn::Set(d, in.m[0]), yy = hn::Set(d, in.m[1]), zz = hn::Set(d, in.m[2]);
     const V xy = hn::Set(d, in.m[3]), xz = hn::Set(d, in.m[4]), yz = hn::Set(d, in.m[5]);
     const Vec3<V> normal{hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, hn::Set(d, in.gradient[0])))),
                          hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, hn::Set(d, in.gradient[1])))),
                          hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, hn::Set(d, in.gradient[2]))))};
     const V inverse_length = inverse_sqrt(d, hn::Max(dot(normal, normal), hn::Set(d, 1e-30F)));
-    return {depth, normal, inverse_length, root, a, limb};
+    return {entry.depth,
+            normal,
+            inverse_length,
+            entry.against,
+            quadric_a(d, in, quadric_xi(d, in, column)),
+            hn::Mul(entry.against, entry.against)};
 }
 
 /// g of the limb's threshold: -min Q(k d) / |Q(centre)| = L / (A |Q(centre)|), and 1 where Q has no minimum along the
@@ -70,16 +95,17 @@ HWY_INLINE V limb_share(D d, const ShadeInput& in, const SurfacePoint<V>& point)
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SurfacePoint<V> on_plane(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+HWY_INLINE Entry<V> entry_at(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
+    if (in.kind == ShadeInput::Kind::quadric) return entry_into_quadric(d, in, column);
     const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
-    const V depth = hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / in.largest_depth)));
-    const Vec3<V> normal = splat(d, in.normal);
-    return {depth, normal, hn::Set(d, 1.0F), hn::Neg(dot(normal, ray)), hn::Zero(d), hn::Zero(d)};
+    return {hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / in.largest_depth))),
+            hn::Neg(dot(splat(d, in.normal), ray))};
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
-    return in.kind == ShadeInput::Kind::quadric ? on_quadric(d, in, column, ray) : on_plane(d, in, column, ray);
+HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const Vec3<V>& ray, const Entry<V>& entry) {
+    if (in.kind == ShadeInput::Kind::quadric) return on_quadric(d, in, column, ray, entry);
+    return {entry.depth, splat(d, in.normal), hn::Set(d, 1.0F), entry.against, hn::Zero(d), hn::Zero(d)};
 }
 
 /// Largest share of L that its change from sample to sample may be, for a cubic to follow a quadric's normal.
@@ -134,13 +160,11 @@ struct PixelFootprint {
 };
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE PixelFootprint<V> pixel_footprint(D d, const ShadeInput& in, const SurfacePoint<V>& point,
-                                             const Vec3<V>& ray, V length) {
+                                             const Vec3<V>& ray, const Length<V>& length) {
     // How far the surface point moves from a column and from a row to the next: dP = k (e - d (N.e)/(N.d)).
     const Vec3<V> ray_step = splat(d, in.ray_step), along_row = splat(d, in.along_row);
-    const V least_against =
-        hn::Mul(hn::Set(d, 1e-3F), hn::Mul(length, hn::Mul(point.inverse_length, dot(point.normal, point.normal))));
-    const V inverse =
-        hn::CopySign(hn::Div(point.depth, hn::Max(hn::Abs(point.against), least_against)), hn::Neg(point.against));
+    const V most = hn::Mul(hn::Mul(hn::Set(d, 1e3F), point.depth), hn::Mul(length.inverse, point.inverse_length));
+    const V inverse = hn::CopySign(hn::Min(hn::Div(point.depth, hn::Abs(point.against)), most), hn::Neg(point.against));
     const V tilt_x = hn::Mul(dot(point.normal, ray_step), inverse),
             tilt_z = hn::Mul(dot(point.normal, along_row), inverse);
     const auto squared_step = [&](const Vec3<V>& step, V tilt) {

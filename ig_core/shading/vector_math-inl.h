@@ -121,10 +121,15 @@ HWY_INLINE V inverse_sqrt(D d, V x) {
     return hn::Mul(y, hn::NegMulAdd(hn::Mul(hn::Set(d, 0.5F), x), hn::Mul(y, y), hn::Set(d, 1.5F)));
 }
 
+/// A vector's length and its inverse.
+template <class V>
+struct Length {
+    V value, inverse;
+};
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V vector_length(D d, const Vec3<V>& v) {
-    const V squared = dot(v, v);
-    return hn::Mul(squared, inverse_sqrt(d, squared));
+HWY_INLINE Length<V> length_of(D d, const Vec3<V>& v) {
+    const V squared = dot(v, v), inverse = inverse_sqrt(d, squared);
+    return {hn::Mul(squared, inverse), inverse};
 }
 
 /// 2^-y for y >= 0, relative error <= 3e-6; 0 beyond 126.

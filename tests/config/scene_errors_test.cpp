@@ -52,8 +52,6 @@ const std::vector<Mistake> kMistakes{
      "expected linear light in 0..1, found -0.18"},
     {"no visibility", "visibility = 20000.0", "visibility = 0", "haze.visibility",
      "expected a number above 0, found 0"},
-    {"haze without visibility", "visibility = 20000.0", "# none", "haze.visibility", "expected this key, found none",
-     std::size_t(-1)},
     {"a ground texture that is not there", "texture = \"grass\"", "texture = \"gras\"", "ground.texture",
      "expected the name of a [[texture]] or of a pattern, found \"gras\""},
     {"an object texture that is not there", "texture = \"leaves\"", "texture = \"leafs\"", "object[0].texture",

@@ -100,7 +100,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"replay", flight, "--scene", scene, "--sink", "mpeg:x"}, "mpeg:x"},
         {{"replay", flight, "--scene", scene, "--sink", "png:"}, "png:"},
         {{"replay", flight, "--scene", scene, "--rate", "0.5"}, "hertz"},
-        {{"replay", flight, "--scene", scene, "--frames", "0"}, "--frames"},
+        {{"replay", flight, "--scene", scene, "--frames", "0"}, "'0': expected a whole number of at least 1"},
         {{"replay", flight, "--scene", scene, "--frames", "5", "--seconds", "1"}, "--frames"},
         {{"replay", flight, "--scene", scene, "--seconds", "-1"}, "-1"},
         {{"run", "--link", "fdm://127.0.0.1:0"}, "--scene"},
@@ -111,7 +111,8 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=5"}, "version"},
         {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:0?word_order=up"}, "word_order"},
         {{"bench", scene}, "--path"},
-        {{"bench", scene, "--path", cameras, "--frames", "-3"}, "--frames"},
+        {{"bench", scene, "--path", cameras, "--frames", "-3"}, "'-3': expected a whole number of at least 1"},
+        {{"render", scene, "--eye", "0,2e9,8"}, "'0,2e9,8': expected three numbers in -1e9..1e9"},
         {{"check"}, "required"},
         {{"check", scene, scene}, scene},
     };
@@ -173,6 +174,24 @@ TEST_CASE("What cannot be done is exit status 1, with the reason on standard err
 
 TEST_CASE("Standard output that cannot be written to is a failure") {
     const std::string scene = scratch_file("scene.toml", small_scene());
-    const std::string command = std::string(QUADRIG_PROGRAM) + " check '" + scene + "' 2>/dev/null >/dev/full";
-    CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+    for (const std::string& asked : std::vector<std::string>{"check '" + scene + "'", "generate '" + scene + "'",
+                                                             "--help", "run --help", "--version"}) {
+        INFO(asked);
+        const std::string command = std::string(QUADRIG_PROGRAM) + " " + asked + " 2>/dev/null >/dev/full";
+        CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+    }
+}
+
+TEST_CASE(
+    "A file that is read twice, to tell what it is, is refused where it is a pipe, and nothing of it is lost unseen") {
+    const std::string scene = scratch_file("scene.toml", small_scene());
+    const std::string log = shipped("config/traces/canaerospace-c172-takeoff.log");
+    const std::string program = QUADRIG_PROGRAM, err = scratch_directory() / "err";
+    for (const std::string& command : std::vector<std::string>{
+             "cat '" + scene + "' | " + program + " check /dev/stdin",
+             "head -100 '" + log + "' | " + program + " replay /dev/stdin --fast --size 8x8 --scene '" + scene + "'"}) {
+        INFO(command);
+        CHECK(WEXITSTATUS(std::system((command + " 2>'" + err + "'").c_str())) == 1);
+        CHECK_THAT(text_of(err), Contains("/dev/stdin: expected a regular file"));
+    }
 }

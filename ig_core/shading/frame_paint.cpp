@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quadrig {
@@ -106,9 +107,10 @@ FrameLight make_frame_light(const Scene& scene, const Environment& environment) 
     light.ambient = static_cast<float>(sun.ambient);
     light.horizon = to_float(scene.sky.horizon);
     light.zenith = to_float(scene.sky.zenith);
-    light.haze = scene.haze.has_value() || environment.visibility.has_value();
+    const double clear = std::numeric_limits<double>::infinity();
+    const double visibility = environment.visibility.value_or(scene.haze ? scene.haze->visibility : clear);
+    light.haze = visibility < clear;
     if (light.haze) {
-        const double visibility = environment.visibility ? *environment.visibility : scene.haze->visibility;
         light.extinction = static_cast<float>(kContrastAtVisibility / (visibility * std::numbers::ln2));
         light.haze_colour = to_float(scene.haze ? scene.haze->colour : scene.sky.horizon);
     }

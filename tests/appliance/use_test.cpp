@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <regex>
+#include <set>
+#include <string>
 
 #include "tests/appliance/files.h"
 #include "tests/appliance/program.h"
@@ -46,6 +49,24 @@ TEST_CASE("Help goes to standard output, names every command and option, and is 
         CHECK(help.status == 0);
         CHECK_THAT(help.out, Contains("Example"));
         for (const std::string& option : options) CHECK_THAT(help.out, Contains(option));
+    }
+}
+
+TEST_CASE("Every command that help names, and every option of it, is told in the README") {
+    const std::string readme = text_of(shipped("appliance/README.md"));
+    const std::string help = quadrig_program({"--help"}).out;
+    const auto words_like = [](const std::string& text, const char* pattern) {
+        std::set<std::string> words;
+        const std::regex like(pattern);
+        for (std::sregex_iterator at(text.begin(), text.end(), like), end; at != end; ++at) words.insert((*at)[1]);
+        return words;
+    };
+    const auto commands = words_like(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
+    CHECK(commands.size() == 13);
+    for (const std::string& command : commands) {
+        CHECK_THAT(readme, Contains("\n    quadrig " + command + " "));
+        for (const std::string& option : words_like(quadrig_program({command, "--help"}).out, "(--[a-z-]+)"))
+            CHECK_THAT(readme, Contains(option));
     }
 }
 

@@ -61,7 +61,7 @@ TEST_CASE("Every command that help names, and every option of it, is told in the
         for (std::sregex_iterator at(text.begin(), text.end(), like), end; at != end; ++at) words.insert((*at)[1]);
         return words;
     };
-    const auto commands = words_like(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
+    const auto commands = words_like(help.substr(help.find("Subcommands:")), "\n  ([a-z]+)  ");
     CHECK(commands.size() == 13);
     for (const std::string& command : commands) {
         CHECK_THAT(readme, Contains("\n    quadrig " + command + " "));

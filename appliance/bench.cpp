@@ -68,9 +68,7 @@ void add_bench(CLI::App& program, Action& action) {
     const auto options = std::make_shared<BenchOptions>();
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
     command.add_option("--path", options->path, "The camera path (required)")->required()->option_text("CAMERAS.json");
-    command.add_option("--frames", options->frames, "How many (default: one from each camera)")
-        ->check(CLI::PositiveNumber)
-        ->option_text("N");
+    add_option(command, "--frames", options->frames, read_count, "How many (default: one from each camera)", "N");
     add_picture_options(command, *options);
     command.footer(kBenchNotes);
     command.callback([options, &action] { action = [options] { bench(*options); }; });

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include "appliance/commands.h"
 #include "appliance/playback.h"
@@ -102,6 +103,9 @@ void check_recording(const Path& file) {
 }
 
 void check(const Path& file) {
+    // What a file is is told by its beginning, and then read from there again.
+    if (std::error_code none; std::filesystem::is_other(file, none))
+        throw std::runtime_error(file.string() + ": expected a regular file, found a pipe or a device");
     if (is_recording(file)) return check_recording(file);
     if (file.extension() == ".json") return check_cameras(file);
     if (config::is_appliance_file(file)) return check_appliance(file);

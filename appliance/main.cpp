@@ -24,6 +24,12 @@ int wrong_use(const CLI::App& program, const std::string& what) {
     return complain(what + "\nSee '" + command + " --help'.", kWrongUse);
 }
 
+/// What a command printed has arrived, or it has not done what it was asked to.
+int done() {
+    std::cout.flush();
+    return std::cout ? kDone : complain("standard output cannot be written to", kFailed);
+}
+
 /// CLI11 complains of what is missing before what is unknown, which is more often the reason.
 std::string reason(const CLI::App& program, const CLI::ParseError& error) {
     const auto unknown = program.remaining(true);
@@ -65,11 +71,11 @@ int main(int argc, char** argv) {
     try {
         program.parse(argc, argv);
         action();
-        std::cout.flush();
-        return std::cout ? kDone : complain("standard output cannot be written to", kFailed);
+        return done();
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-        return wrong_use(program, reason(program, error));
+        if (error.get_exit_code() != 0) return wrong_use(program, reason(program, error));
+        program.exit(error);  // --help, --version
+        return done();
     } catch (const WrongUse& error) {
         return wrong_use(program, error.what());
     } catch (const std::bad_alloc&) {

@@ -32,7 +32,9 @@ double number_in(const std::string& text, const std::string& expected, bool (*ho
 }  // namespace
 
 glm::dvec3 read_triple(const std::string& text) {
-    const auto fail = [&] { refuse(text, "three numbers with commas between them and no blanks, such as 3,0,-8"); };
+    const auto fail = [&] {
+        refuse(text, "three numbers in -1e9..1e9 with commas between them and no blanks, such as 3,0,-8");
+    };
     const std::size_t first = text.find(','), last = text.rfind(',');
     if (first == last) fail();
     const std::string_view all(text);
@@ -70,6 +72,12 @@ scheduler::Time read_duration(const std::string& text) {
     const double seconds =
         number_in(text, "seconds above 0 and at most 1e8", [](double x) { return x > 0.0 && x <= 1e8; });
     return std::chrono::round<scheduler::Time>(std::chrono::duration<double>(seconds));
+}
+
+std::uint64_t read_count(const std::string& text) {
+    const auto count = parse<std::uint64_t>(text);
+    if (!count || *count == 0) refuse(text, "a whole number of at least 1");
+    return *count;
 }
 
 double read_number(const std::string& text) {

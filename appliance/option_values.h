@@ -13,7 +13,7 @@
 
 namespace quadrig::appliance {
 
-/// "3,0,-8": three finite numbers.
+/// "3,0,-8": three numbers, each within 1e9.
 glm::dvec3 read_triple(const std::string& text);
 /// "1280x720"
 config::ImageSize read_size(const std::string& text);
@@ -23,6 +23,8 @@ Degrees read_field_of_view(const std::string& text);
 scheduler::FrameRate read_rate(const std::string& text);
 /// Seconds above 0, at most 1e8.
 scheduler::Time read_duration(const std::string& text);
+/// A whole number of at least 1.
+std::uint64_t read_count(const std::string& text);
 /// A finite number.
 double read_number(const std::string& text);
 /// A step of the shipped quality ladder.

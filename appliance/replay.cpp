@@ -125,6 +125,7 @@ config::ApplianceSettings settings_of(const ReplayOptions& options) {
 void replay(const ReplayOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
     if (!given.scene) throw WrongUse("--scene is missing: what is there to see?");
+    expect_sinks_apart(given.sinks);
     if (options.link && options.link->live)
         throw WrongUse("link '" + options.link->text +
                        "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");

@@ -46,10 +46,14 @@ void add_host_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--ignore-host-window", options.ignore_host_window,
                      "Keep --fov also where a host sends a view window of its own\n(CIGI View Definition)");
     command.add_flag("--overlay", options.overlay, "Lay a centre cross and the frame's number over the picture");
-    auto* frames = command.add_option("--frames", options.frames, "Stop after N frames")
-                       ->check(CLI::PositiveNumber)
-                       ->option_text("N");
+    auto* frames = add_option(command, "--frames", options.frames, read_count, "Stop after N frames", "N");
     add_option(command, "--seconds", options.duration, read_duration, "Stop after S seconds", "S")->excludes(frames);
+}
+
+void expect_sinks_apart(const std::vector<std::string>& sinks) {
+    for (auto sink = sinks.begin(); sink != sinks.end(); ++sink)
+        if (*sink != "none:" && std::find(sinks.begin(), sink, *sink) != sink)
+            throw WrongUse("sink " + *sink + " is given twice: each would write over the other");
 }
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

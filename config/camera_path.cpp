@@ -2,60 +2,70 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace quadrig::config {
 namespace {
 
 using Json = nlohmann::json;
 
+/// Of one camera: ".eye", ".eye[2]", and "" for the camera itself.
+using Lines = std::map<std::string, std::size_t>;
+
 class CameraReader {
   public:
-    CameraReader(const std::filesystem::path& file, std::size_t index)
-        : file_(file), key_("[" + std::to_string(index) + "]") {}
+    CameraReader(const std::filesystem::path& file, std::size_t index, const Lines& lines)
+        : file_(file), camera_("[" + std::to_string(index) + "]"), lines_(lines) {}
 
     [[nodiscard]] Camera read(const Json& camera) const {
-        if (!camera.is_object()) refuse(key_, "an object of eye, attitude and fov", camera);
+        if (!camera.is_object()) refuse("", "an object of eye, attitude and fov", camera);
         for (const auto& [name, value] : camera.items()) {
             if (name != "eye" && name != "attitude" && name != "fov") {
-                throw FileError(file_, 0, key_ + "." + name,
-                                "expected one of eye, attitude, fov, found an unknown key");
+                fail("." + name, "expected one of eye, attitude, fov, found an unknown key");
             }
         }
         const glm::dvec3 eye = triple(camera, "eye", "metres in -1e9..1e9", 1e9);
         const glm::dvec3 attitude = triple(camera, "attitude", "degrees in -360..360", 360.0);
         const Json& fov = required(camera, "fov");
         if (!fov.is_number() || fov.get<double>() < 1.0 || fov.get<double>() > 170.0) {
-            refuse(key_ + ".fov", "degrees in 1..170", fov);
+            refuse(".fov", "degrees in 1..170", fov);
         }
         return {{eye}, {{attitude.x}, {attitude.y}, {attitude.z}}, {fov.get<double>()}};
     }
 
   private:
+    /// `key` as in Lines; one that is missing is told with the camera's line.
+    [[noreturn]] void fail(const std::string& key, const std::string& complaint) const {
+        const auto line = lines_.find(key);
+        throw FileError(file_, line != lines_.end() ? line->second : lines_.at(""), camera_ + key, complaint);
+    }
+
     [[noreturn]] void refuse(const std::string& key, const std::string& expected, const Json& found) const {
         constexpr std::size_t kShown = 40;
         const std::string text = found.dump(-1, ' ', false, Json::error_handler_t::replace);
-        throw FileError(
-            file_, 0, key,
-            "expected " + expected + ", found " + (text.size() > kShown ? text.substr(0, kShown) + "..." : text));
+        fail(key, "expected " + expected + ", found " + (text.size() > kShown ? text.substr(0, kShown) + "..." : text));
     }
 
     [[nodiscard]] const Json& required(const Json& camera, const std::string& name) const {
         const auto found = camera.find(name);
-        if (found == camera.end()) throw FileError(file_, 0, key_ + "." + name, "expected this key, found none");
+        if (found == camera.end()) fail("." + name, "expected this key, found none");
         return *found;
     }
 
     [[nodiscard]] glm::dvec3 triple(const Json& camera, const std::string& name, const std::string& expected,
                                     double limit) const {
         const Json& array = required(camera, name);
-        if (!array.is_array() || array.size() != 3) refuse(key_ + "." + name, "an array of 3 numbers", array);
+        if (!array.is_array() || array.size() != 3) refuse("." + name, "an array of 3 numbers", array);
         glm::dvec3 values;
         for (std::size_t i = 0; i < 3; ++i) {
             const Json& element = array[i];
             if (!element.is_number() || !(std::abs(element.get<double>()) <= limit)) {
-                refuse(key_ + "." + name + "[" + std::to_string(i) + "]", expected, element);
+                refuse("." + name + "[" + std::to_string(i) + "]", expected, element);
             }
             values[static_cast<glm::length_t>(i)] = element.get<double>();
         }
@@ -63,33 +73,84 @@ class CameraReader {
     }
 
     const std::filesystem::path& file_;
-    std::string key_;
+    std::string camera_;
+    const Lines& lines_;
 };
 
-Json parse_json_file(const std::filesystem::path& file) {
-    const std::string text = read_text_file(file);
-    try {
-        return Json::parse(text);
-    } catch (const Json::parse_error& error) {
-        const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-        const auto line = static_cast<std::size_t>(std::count(text.begin(), before, '\n')) + 1;
-        throw FileError(file, line, "", std::string("not JSON: ") + error.what());
-    } catch (const Json::exception& error) {
-        throw FileError(file, 0, "", std::string("not JSON: ") + error.what());
+/// Reads each camera as soon as the parser has it whole, while the lines of its keys are known.
+class PathReader {
+  public:
+    PathReader(const std::filesystem::path& file, const std::string& text) : file_(file), text_(text), stream_(text) {}
+
+    std::vector<Camera> read() {
+        try {
+            std::ignore = Json::parse(stream_, [this](int depth, Json::parse_event_t event, Json& parsed) {
+                return take(depth, event, parsed);
+            });
+        } catch (const Json::parse_error& error) {
+            throw FileError(file_, line_before(error.byte), "", std::string("not JSON: ") + error.what());
+        } catch (const Json::exception& error) {
+            throw FileError(file_, line_here(), "", std::string("not JSON: ") + error.what());
+        }
+        if (cameras_.empty()) throw FileError(file_, 1, "", "expected an array of at least one camera, found none");
+        return std::move(cameras_);
     }
-}
+
+  private:
+    using Event = Json::parse_event_t;
+
+    /// Depth 0 is the path, 1 a camera, 2 its keys and values, 3 their elements. False: need not be kept.
+    bool take(int depth, Event event, const Json& parsed) {
+        if (depth == 0 && event == Event::array_start) is_array_ = true;
+        if (!is_array_) return true;
+        if (depth == 1 && (event == Event::object_start || event == Event::array_start)) {
+            lines_ = {{"", line_here()}};
+        } else if (depth == 1) {
+            lines_.emplace("", line_here());
+            cameras_.push_back(CameraReader(file_, cameras_.size(), lines_).read(parsed));
+            lines_.clear();
+            return false;
+        } else if (depth == 2 && event == Event::key) {
+            key_ = "." + parsed.get<std::string>();
+            element_ = 0;
+            if (!lines_.emplace(key_, line_here()).second)
+                throw FileError(file_, line_here(), "[" + std::to_string(cameras_.size()) + "]" + key_,
+                                "expected once, found again");
+        } else if (depth == 3 && event == Event::value) {
+            lines_.emplace(key_ + "[" + std::to_string(element_++) + "]", line_here());
+        }
+        return true;
+    }
+
+    /// The parser has read one character more than a number has.
+    std::size_t line_here() {
+        const std::streamoff position = stream_.tellg();
+        return line_before(position < 0 ? text_.size() : static_cast<std::size_t>(position - 1));
+    }
+
+    /// Positions only go up, so that each character is looked at once.
+    std::size_t line_before(std::size_t position) {
+        for (const std::size_t end = std::min(position, text_.size()); counted_ < end; ++counted_)
+            if (text_[counted_] == '\n') ++line_;
+        return line_;
+    }
+
+    const std::filesystem::path& file_;
+    const std::string& text_;
+    std::istringstream stream_;
+    std::size_t counted_ = 0, line_ = 1;
+    bool is_array_ = false;
+    Lines lines_;
+    std::string key_;
+    std::size_t element_ = 0;
+    std::vector<Camera> cameras_;
+};
 
 }  // namespace
 
 std::vector<Camera> read_camera_path(const std::filesystem::path& file) {
-    const Json document = parse_json_file(file);
-    if (!document.is_array() || document.empty()) {
-        throw FileError(file, 0, "", "expected an array of at least one camera, found something else");
-    }
-    std::vector<Camera> cameras;
-    cameras.reserve(document.size());
-    for (const Json& camera : document) cameras.push_back(CameraReader(file, cameras.size()).read(camera));
-    return cameras;
+    const std::string text = read_text_file(file);
+    return PathReader(file, text).read();
 }
 
 }  // namespace quadrig::config

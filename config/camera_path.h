@@ -16,7 +16,7 @@ struct Camera {
 };
 
 /// Reads a camera path of at least one camera; all three keys are required. Throws FileError at the first mistake, with
-/// the key ("[12].eye[2]") and, where the text is not JSON, its line.
+/// its line and key ("[12].eye[2]"; a syntax error has no key). A key that is there twice is a mistake.
 std::vector<Camera> read_camera_path(const std::filesystem::path& file);
 
 }  // namespace quadrig::config

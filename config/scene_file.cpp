@@ -1,5 +1,7 @@
 #include "config/scene_file.h"
 
+#include <limits>
+
 #include "config/cluster_section.h"
 #include "config/ground_section.h"
 #include "config/model_section.h"
@@ -26,9 +28,11 @@ Sky read_sky(const TomlSection& section) {
 }
 
 Haze read_haze(const TomlSection& section, const Sky& sky) {
-    // Haze without a colour is the air at the horizon: distant things fade into the sky behind them.
-    return {section.number("visibility", kPositive),
-            section.has("colour") ? section.triple("colour", kColour) : sky.horizon};
+    // Without a visibility there is no haze, but its colour still serves a host that sends one. Haze without a colour
+    // is the air at the horizon: distant things fade into the sky behind them.
+    return {
+        section.has("visibility") ? section.number("visibility", kPositive) : std::numeric_limits<double>::infinity(),
+        section.has("colour") ? section.triple("colour", kColour) : sky.horizon};
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ std::string summary(const Scene& scene) {
     for (const CloudDeck& deck : scene.cloud_decks)
         out << "; at " << deck.altitude << " m" << texture_name(deck.paint, scene);
     out << "\nhaze:        ";
-    if (scene.haze)
+    if (scene.haze && std::isfinite(scene.haze->visibility))
         out << "visibility " << scene.haze->visibility << " m";
     else
         out << "none";

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ostream>
 #include <span>
 
@@ -112,7 +113,8 @@ void write_scene(const Scene& scene, std::ostream& out) {
     write_colour(out, "horizon", scene.sky.horizon);
     write_colour(out, "zenith", scene.sky.zenith);
     if (scene.haze) {
-        out << "[haze]\nvisibility = " << Exact{scene.haze->visibility} << '\n';
+        out << "[haze]\n";
+        if (std::isfinite(scene.haze->visibility)) out << "visibility = " << Exact{scene.haze->visibility} << '\n';
         write_colour(out, "colour", scene.haze->colour);
     }
     if (scene.ground) {

@@ -9,11 +9,13 @@
 namespace quadrig::config {
 namespace {
 
+constexpr double kMostWeight = 1e60;  // squares of sums are to be numbers still, and no zeros
+constexpr NumberRule kCoefficient{"a number in 0..1e60", [](double x) { return x >= 0.0 && x <= kMostWeight; }};
 constexpr NumberRule kScale{"a factor in 1e-6..1e6", [](double x) { return x >= 1e-6 && x <= 1e6; }};
 
 std::vector<TextureTerm> read_terms(const TomlSection& section) {
     constexpr std::size_t kMost = kMaxTextureTerms;
-    const auto coefficients = section.numbers("coefficients", kNotNegative, 1, kMost);
+    const auto coefficients = section.numbers("coefficients", kCoefficient, 1, kMost);
     const auto frequencies = section.numbers("frequencies", kPositive, 1, kMost);
     const auto phases = section.numbers("phases", kAnyNumber, 1, kMost);
     const auto refuse_other_length = [&](std::string_view name, const std::vector<double>& values) {
@@ -23,8 +25,8 @@ std::vector<TextureTerm> read_terms(const TomlSection& section) {
     };
     refuse_other_length("frequencies", frequencies);
     refuse_other_length("phases", phases);
-    if (std::accumulate(coefficients.begin(), coefficients.end(), 0.0) <= 0.0) {
-        section.refuse("coefficients", "a sum above 0", "0");
+    if (std::accumulate(coefficients.begin(), coefficients.end(), 0.0) < 1.0 / kMostWeight) {
+        section.refuse("coefficients", "a sum of at least 1e-60", "less");
     }
     std::vector<TextureTerm> terms;
     for (std::size_t i = 0; i < coefficients.size(); ++i) terms.push_back({coefficients[i], frequencies[i], phases[i]});

@@ -9,8 +9,32 @@
 
 namespace quadrig::display {
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
-    part_ += ".part";
+namespace {
+
+/// Devices, pipes and sockets: a file renamed to such a name would take its place.
+bool is_special(const std::filesystem::path& path) {
+    std::error_code none;
+    return std::filesystem::is_other(path, none);
+}
+
+/// Links that lead nowhere yet are followed too, as opening them for writing would.
+std::filesystem::path behind_links(std::filesystem::path path) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    std::error_code none;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, none); ++i)
+        path = path.parent_path() / std::filesystem::read_symlink(path, none);
+    return path;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+    if (is_special(path_)) {
+        target_ = part_ = path_;
+    } else {
+        part_ = target_ = behind_links(path_);
+        part_ += ".part";
+    }
     stream_ = std::fopen(part_.c_str(), "wbe");
     if (!stream_) fail("cannot be written");
 }
@@ -18,8 +42,11 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), par
 AtomicFile::~AtomicFile() {
     if (!stream_) return;
     std::fclose(stream_);
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
+    discard();
+}
+
+void AtomicFile::discard() const {
+    if (part_ != target_) std::remove(part_.c_str());
 }
 
 void AtomicFile::write(const void* data, std::size_t bytes) {
@@ -28,15 +55,19 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 
 void AtomicFile::commit() {
     std::FILE* const stream = std::exchange(stream_, nullptr);
-    if (std::fclose(stream) == 0 && std::rename(part_.c_str(), path_.c_str()) == 0) return;
+    if (std::fclose(stream) == 0 && (part_ == target_ || std::rename(part_.c_str(), target_.c_str()) == 0)) return;
     const int reason = errno;
-    std::remove(part_.c_str());
+    discard();
     errno = reason;
     fail("cannot be written");
 }
 
 void AtomicFile::fail(const char* what) const {
     throw std::runtime_error(path_.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+void expect_writable(const std::filesystem::path& path) {
+    if (!is_special(path)) AtomicFile can_be_made(path);
 }
 
 void write_whole(const std::filesystem::path& path, std::string_view text) {

@@ -8,7 +8,8 @@
 namespace quadrig::display {
 
 /// Every failure throws std::runtime_error with the path and the system's reason. A file not committed leaves nothing
-/// behind.
+/// behind. Behind a symbolic link it is the link's target that is written; a device, a pipe or a socket keeps its name
+/// and takes the bytes as they come.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path path);
@@ -22,10 +23,15 @@ class AtomicFile {
     void commit();
 
   private:
+    void discard() const;
     [[noreturn]] void fail(const char* what) const;
-    std::filesystem::path path_, part_;
+    std::filesystem::path path_, target_, part_;  ///< as named, where its links lead, until it is finished
     std::FILE* stream_ = nullptr;
 };
+
+/// Throws, as above, where such a file cannot be made, and makes none. A pipe is not tried: its reader would take that
+/// for all there is.
+void expect_writable(const std::filesystem::path& path);
 
 /// A file of this text, or an exception as above.
 void write_whole(const std::filesystem::path& path, std::string_view text);

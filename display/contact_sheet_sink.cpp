@@ -13,7 +13,7 @@ ContactSheetWriter::ContactSheetWriter(std::filesystem::path file, const VideoFo
     : file_(std::move(file)),
       width_(std::min(kThumbnailWidth, format.width)),
       height_(std::max(1, format.height * width_ / format.width)) {
-    AtomicFile can_be_made(file_);
+    expect_writable(file_);
 }
 
 void ContactSheetWriter::write(const FrameImage& image, std::uint64_t, const std::stop_token&) {

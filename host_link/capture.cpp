@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include "host_link/can_frame.h"
 #include "host_link/canaerospace.h"
@@ -253,6 +254,9 @@ bool is_candump_log(const std::filesystem::path& path) {
 }
 
 Capture read_capture(const std::filesystem::path& path, std::optional<Protocol> protocol, bool whole) {
+    // What a file holds is told by its beginning, and then read from there again.
+    if (std::error_code none; std::filesystem::is_other(path, none))
+        throw std::runtime_error(path.string() + ": expected a regular file, found a pipe or a device");
     Read read = is_candump_log(path) ? read_candump(path) : read_pcap(path);
     const std::pair<const FlowKey, FlowCount>* best = nullptr;
     std::uint64_t most = 0;

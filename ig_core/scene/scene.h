@@ -114,7 +114,7 @@ struct Sky {
 };
 /// Visibility is the meteorological optical range (5 % contrast): e = exp(-2.996 R / V).
 struct Haze {
-    double visibility = 20000.0;  ///< m, > 0
+    double visibility = 20000.0;  ///< m, > 0; infinite: clear air, unless a host says otherwise
     Colour colour{0.62, 0.72, 0.82};
 };
 /// The plane Z = 0, seen from either side.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quadrig {
@@ -11,9 +12,13 @@ std::array<float, 3> to_float(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Terms by rising frequency: filtering drops them from the end.
+/// Terms by rising frequency: filtering drops them from the end. One without weight would end them as a dropped one
+/// does.
 std::vector<TextureTerm> sorted_terms(const Texture& texture) {
     std::vector<TextureTerm> terms = texture.terms;
+    double sum = 0.0;
+    for (const TextureTerm& term : terms) sum += term.coefficient;
+    std::erase_if(terms, [sum](const TextureTerm& t) { return static_cast<float>(t.coefficient / sum) == 0.0F; });
     std::stable_sort(terms.begin(), terms.end(),
                      [](const TextureTerm& a, const TextureTerm& b) { return a.frequency < b.frequency; });
     return terms;
@@ -79,11 +84,11 @@ void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, co
                    FramePaints& paints) {
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& texture = scene.textures[i];
-        const int terms = static_cast<int>(texture.terms.size());
+        const int terms = static_cast<int>(paints.terms[i].size());
         paints.textures[i].count = std::max(std::min(terms, 1), terms - std::max(0, quality.terms_left_out));
         paints.textures[i].sine = quality.sine;
         paints.textures[i].variance = 0;
-        for (std::size_t k = 0; k < texture.terms.size(); ++k) {
+        for (std::size_t k = 0; k < paints.terms[i].size(); ++k) {
             const double w = paints.terms[i][k].frequency;
             const double p = paints.terms[i][k].phase + texture.churn * seconds;
             FrameTexture::Term& out = paints.textures[i].terms[k];
@@ -111,9 +116,10 @@ FrameLight make_frame_light(const Scene& scene, const Environment& environment) 
     light.ambient = static_cast<float>(sun.ambient);
     light.horizon = to_float(scene.sky.horizon);
     light.zenith = to_float(scene.sky.zenith);
-    light.haze = scene.haze.has_value() || environment.visibility.has_value();
+    const double clear = std::numeric_limits<double>::infinity();
+    const double visibility = environment.visibility.value_or(scene.haze ? scene.haze->visibility : clear);
+    light.haze = visibility < clear;
     if (light.haze) {
-        const double visibility = environment.visibility ? *environment.visibility : scene.haze->visibility;
         light.extinction = static_cast<float>(kContrastAtVisibility / (visibility * std::numbers::ln2));
         light.haze_colour = to_float(scene.haze ? scene.haze->colour : scene.sky.horizon);
     }

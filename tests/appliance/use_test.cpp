@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <regex>
+#include <set>
+#include <string>
 
 #include "tests/appliance/files.h"
 #include "tests/appliance/program.h"
@@ -46,6 +49,24 @@ TEST_CASE("Help goes to standard output, names every command and option, and is 
         CHECK(help.status == 0);
         CHECK_THAT(help.out, Contains("Example"));
         for (const std::string& option : options) CHECK_THAT(help.out, Contains(option));
+    }
+}
+
+TEST_CASE("Every command that help names, and every option of it, is told in the README") {
+    const std::string readme = text_of(shipped("appliance/README.md"));
+    const std::string help = quadrig_program({"--help"}).out;
+    const auto words_like = [](const std::string& text, const char* pattern) {
+        std::set<std::string> words;
+        const std::regex like(pattern);
+        for (std::sregex_iterator at(text.begin(), text.end(), like), end; at != end; ++at) words.insert((*at)[1]);
+        return words;
+    };
+    const auto commands = words_like(help.substr(help.find("Subcommands:")), "\n  ([a-z]+)  ");
+    CHECK(commands.size() == 13);
+    for (const std::string& command : commands) {
+        CHECK_THAT(readme, Contains("\n    quadrig " + command + " "));
+        for (const std::string& option : words_like(quadrig_program({command, "--help"}).out, "(--[a-z-]+)"))
+            CHECK_THAT(readme, Contains(option));
     }
 }
 
@@ -100,9 +121,12 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"replay", flight, "--scene", scene, "--sink", "mpeg:x"}, "mpeg:x"},
         {{"replay", flight, "--scene", scene, "--sink", "png:"}, "png:"},
         {{"replay", flight, "--scene", scene, "--rate", "0.5"}, "hertz"},
-        {{"replay", flight, "--scene", scene, "--frames", "0"}, "--frames"},
+        {{"replay", flight, "--scene", scene, "--frames", "0"}, "'0': expected a whole number of at least 1"},
         {{"replay", flight, "--scene", scene, "--frames", "5", "--seconds", "1"}, "--frames"},
         {{"replay", flight, "--scene", scene, "--seconds", "-1"}, "-1"},
+        {{"replay", flight, "--scene", scene, "--sink", "y4m:-", "--sink", "none:", "--sink", "y4m:-"},
+         "y4m:- is given twice"},
+        {{"run", "--scene", scene, "--link", "fdm://127.0.0.1:0", "--sink", "png:x", "--sink", "png:x"}, "png:x"},
         {{"run", "--link", "fdm://127.0.0.1:0"}, "--scene"},
         {{"run", "--scene", scene}, "--link"},
         {{"run", "--scene", scene, "--link", "fdm:"}, "ADDRESS:PORT"},
@@ -111,7 +135,8 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=5"}, "version"},
         {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:0?word_order=up"}, "word_order"},
         {{"bench", scene}, "--path"},
-        {{"bench", scene, "--path", cameras, "--frames", "-3"}, "--frames"},
+        {{"bench", scene, "--path", cameras, "--frames", "-3"}, "'-3': expected a whole number of at least 1"},
+        {{"render", scene, "--eye", "0,2e9,8"}, "'0,2e9,8': expected three numbers in -1e9..1e9"},
         {{"check"}, "required"},
         {{"check", scene, scene}, scene},
     };
@@ -173,6 +198,24 @@ TEST_CASE("What cannot be done is exit status 1, with the reason on standard err
 
 TEST_CASE("Standard output that cannot be written to is a failure") {
     const std::string scene = scratch_file("scene.toml", small_scene());
-    const std::string command = std::string(QUADRIG_PROGRAM) + " check '" + scene + "' 2>/dev/null >/dev/full";
-    CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+    for (const std::string& asked : std::vector<std::string>{"check '" + scene + "'", "generate '" + scene + "'",
+                                                             "--help", "run --help", "--version"}) {
+        INFO(asked);
+        const std::string command = std::string(QUADRIG_PROGRAM) + " " + asked + " 2>/dev/null >/dev/full";
+        CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+    }
+}
+
+TEST_CASE(
+    "A file that is read twice, to tell what it is, is refused where it is a pipe, and nothing of it is lost unseen") {
+    const std::string scene = scratch_file("scene.toml", small_scene());
+    const std::string log = shipped("config/traces/canaerospace-c172-takeoff.log");
+    const std::string program = QUADRIG_PROGRAM, err = scratch_directory() / "err";
+    for (const std::string& command : std::vector<std::string>{
+             "cat '" + scene + "' | " + program + " check /dev/stdin",
+             "head -100 '" + log + "' | " + program + " replay /dev/stdin --fast --size 8x8 --scene '" + scene + "'"}) {
+        INFO(command);
+        CHECK(WEXITSTATUS(std::system((command + " 2>'" + err + "'").c_str())) == 1);
+        CHECK_THAT(text_of(err), Contains("/dev/stdin: expected a regular file"));
+    }
 }

@@ -1,6 +1,8 @@
 #include "config/camera_path.h"
 
 #include <catch2/catch.hpp>
+#include <tuple>
+#include <vector>
 
 #include "tests/config/temporary_file.h"
 
@@ -55,6 +57,24 @@ TEST_CASE("mistakes in a camera path are refused with the camera's index and the
     CHECK_THAT(complaint_about("[3]", "[0]"), Catch::Contains("found 3"));
     CHECK_THAT(complaint_about("[]", ""), Catch::Contains("at least one camera"));
     CHECK_THAT(complaint_about("{}", ""), Catch::Contains("at least one camera"));
+}
+
+TEST_CASE("a mistake in a camera path is told with the line that it stands on") {
+    const std::string start = "[\n  {\"eye\": [0, 0, 8], \"attitude\": [0, 0, 0], \"fov\": 60},\n  {\n";
+    const std::vector<std::tuple<std::string, std::string, int>> cases{
+        {"\"eye\": [0,\n0,\n\"x\"], \"attitude\": [0, 0, 0], \"fov\": 60}\n]", "[1].eye[2]", 6},
+        {"\"eye\": [0,\n2e9\n,\n0], \"attitude\": [0, 0, 0], \"fov\": 60}\n]", "[1].eye[1]", 5},
+        {"\"eye\": [0, 0, 8],\r\n\"attitude\": [0, 0, 0],\r\n\r\n\"fov\": 0\r\n}]", "[1].fov", 7},
+        {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0],\n\"fov\": 60,\n\"eye\": [0, 0, 9]}]", "[1].eye", 7},
+        {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0]\n}]", "[1].fov", 3},
+        {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0],\n\"fov\": 60,\n\"roll\": 1}]", "[1].roll", 7},
+        {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0],\n\"fov\": 60}\n,\n3\n]", "[2]", 8},
+        {"\"eye\": [1e999,\n0, 8]}]", "", 4},
+    };
+    for (const auto& [text, key, line] : cases) {
+        INFO(text);
+        CHECK_THAT(complaint_about(start + text, key), Catch::Contains(".json:" + std::to_string(line) + ": "));
+    }
 }
 
 TEST_CASE("a camera path that is not JSON is refused with its line") {

@@ -1,6 +1,7 @@
 #include "config/scene_file.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <random>
 #include <sstream>
 
@@ -104,6 +105,18 @@ texture = [ { name = "bark", coefficients = [1], frequencies = [2], phases = [0]
 )");
     CHECK(scene.objects.at(0).paint.texture == 0U);
     CHECK(scene.haze.value().colour == Colour(0.1, 0.2, 0.3));
+}
+
+TEST_CASE("haze without a visibility is no haze, and keeps its colour when written and read again") {
+    const Scene scene = scene_of("[haze]\ncolour = [0.1, 0.2, 0.3]\n");
+    CHECK(scene.haze.value().visibility == std::numeric_limits<double>::infinity());
+    CHECK(scene.haze->colour == Colour(0.1, 0.2, 0.3));
+    CHECK_THAT(config::summary(scene), Catch::Contains("haze:        none"));
+    std::ostringstream text;
+    config::write_scene(scene, text);
+    const Scene again = scene_of(text.str());
+    CHECK(again.haze.value().visibility == scene.haze->visibility);
+    CHECK(again.haze->colour == scene.haze->colour);
 }
 
 TEST_CASE("a scene that is written and read again is the same, bit for bit") {

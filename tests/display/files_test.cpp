@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "display/atomic_file.h"
 #include "display/contact_sheet.h"
 #include "display/frame_hash.h"
 #include "display/npy_file.h"
@@ -67,6 +70,31 @@ TEST_CASE("A PNG that cannot be written says which and why, and leaves nothing b
     std::filesystem::create_directory(directory.path() / "taken.png");
     CHECK_THROWS_WITH(write_png(directory.path() / "taken.png", picture.image()), Catch::Contains("taken.png"));
     CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 2);
+}
+
+TEST_CASE("A pipe, a device or a symbolic link that is written to is still there afterwards") {
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "real.txt", link = directory.path() / "link.txt",
+               pipe = directory.path() / "pipe", full = directory.path() / "full";
+    std::filesystem::create_symlink("real.txt", link);
+    for (const char* text : {"made through the link", "written through it again"}) {
+        write_whole(link, text);
+        CHECK(std::filesystem::is_symlink(link));
+        CHECK(output_of("cat " + file.string()) == text);
+    }
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    expect_writable(pipe);  // would wait for a reader if it tried
+    const std::unique_ptr<FILE, int (*)(FILE*)> reader(popen(("cat " + pipe.string()).c_str(), "r"), pclose);
+    write_whole(pipe, "through a pipe");
+    std::string text(64, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), reader.get()));
+    CHECK(text == "through a pipe");
+    CHECK(std::filesystem::is_fifo(pipe));
+    // A link stands for the device, lest a mistake here takes it from the machine.
+    std::filesystem::create_symlink("/dev/full", full);
+    CHECK_THROWS_WITH(write_whole(full, "no room"), Catch::Contains("full") && Catch::Contains("No space left"));
+    CHECK(std::filesystem::is_symlink(full));
+    CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 4);
 }
 
 TEST_CASE("NumPy reads the arrays that are written for it, type, shape and every value") {

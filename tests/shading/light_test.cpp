@@ -131,6 +131,9 @@ TEST_CASE("haze leaves 5 % of a surface at the visibility, by slant range, and t
     CHECK(middle_off(scene, small({0, 0, 0}, {{180}, {30}, {0}}, 0.5), 0.5 * (scene.sky.horizon + scene.sky.zenith)) <
           kStep);
 
+    scene.haze->visibility = std::numeric_limits<double>::infinity();
+    CHECK(middle_off(scene, small({0, 0, 0}, {}), white) < kStep);
+
     Environment clearer;
     clearer.visibility = 2000;
     CHECK(middle_off(scene, small({0, 0, 0}, {}), hazed(500, 2000, haze), clearer) < kStep);

@@ -141,6 +141,20 @@ TEST_CASE("terms of a texture count the same in whatever order the file has them
     CHECK(worst_error(texture, {{10, 20, 3}}, 5, random) < kBound);
 }
 
+TEST_CASE("a term without weight takes nothing away from those after it") {
+    Randomness random(2);
+    for (std::size_t without = 0; without < 3; ++without) {
+        CAPTURE(without);
+        Texture texture;
+        for (const double w : {0.1, 0.7, 3.0})
+            texture.terms.push_back({random.between(0.1, 1), w, random.between(0, 6)});
+        for (const double weight : {0.0, 1e-60}) {
+            texture.terms[without].coefficient = weight;
+            CHECK(worst_error(texture, {{10, 20, 3}}, 5, random) < kBound);
+        }
+    }
+}
+
 TEST_CASE("the texturing function's values stay within 0..1 and average 1/4") {
     Scene scene;
     scene.textures = {{"", {{1, 0.31, 0.5}, {0.7, 0.77, 2.1}, {0.5, 1.9, 4}}, 0.75, {0, 0}}};

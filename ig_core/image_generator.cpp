@@ -288,8 +288,8 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     // What is sampled at the middles of its rows only must not slip between them.
     const bool may_slip = quality.sub_scan_lines == 0 && across > 1.0;
     g.look_at_features(view, environment, may_slip ? view.image.row_step : asked.image.row_step);
-    const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
-                             quality};
+    const FrameShading frame{glm::transpose(view.eye_from_scene), &g.paints, &g.scene.lights,
+                             make_frame_light(g.scene, environment), quality};
     g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {
         own.shader.draw(frame, row, own.sweep);
         write_row(own.shader, row.row, quality.shading, image);

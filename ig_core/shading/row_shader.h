@@ -14,16 +14,12 @@ namespace quadrig {
 
 /// What is common to all rows of a frame. Spans lead into it by Surface::outline and Surface::index.
 struct FrameShading {
-    const View* view = nullptr;
-    const std::vector<Solid>* solids = nullptr;  ///< by object
+    glm::dmat3 scene_from_eye{1.0};
     const FramePaints* paints = nullptr;
     const std::vector<LightPoint>* lights = nullptr;  ///< the scene's
     FrameLight light;
     Quality quality;
 };
-
-/// The numbers of one job on its row.
-ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to);
 
 /// Shades and composites one row at a time; keeps its memory from row to row.
 class RowShader {

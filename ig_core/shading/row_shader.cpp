@@ -179,7 +179,6 @@ void RowShader::plan(const RowSweep& sweep) {
 
 void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
     partial_.clear();
-    partial_layers_.clear();
     for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
         const RowSpan& span = sweep.spans[sweep.layers[i]];
         // Beside all layers from some group on: it changes nothing to draw it with that group.
@@ -188,8 +187,7 @@ void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const L
         for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
             if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
         while (place > 0 && group != i && partial_[place - 1].group != group) --place;
-        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {0, group, &span});
-        partial_layers_.insert(partial_layers_.begin() + static_cast<std::ptrdiff_t>(place), i);
+        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {sample(i, run.from), group, &span});
     }
 }
 
@@ -204,10 +202,6 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
 
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
     for (const LayerRun& run : sweep.runs) {
-        const auto sample = [&](std::uint32_t layer, int column) {
-            const ShadeJob& job = jobs_[job_of_layer_[layer]];
-            return job.buffer + static_cast<std::uint32_t>(column - job.from);
-        };
         if (!run.partial) {
             samples_.clear();
             for (std::uint32_t i = 0; i < run.layer_count; ++i)
@@ -217,10 +211,7 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
         }
         group_layers(row, sweep, run);
         work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        for (int column = run.from; column < run.to; ++column) {
-            for (std::size_t i = 0; i < partial_.size(); ++i) partial_[i].sample = sample(partial_layers_[i], column);
-            composite_partial(buffer_, partial_, column, row.sub_lines, row_);
-        }
+        composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
     }
     assert(all_numbers(row_, row.columns));
 }

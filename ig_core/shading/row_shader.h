@@ -44,6 +44,11 @@ class RowShader {
 
   private:
     void plan(const RowSweep& sweep);
+    /// Where a layer of a run stands in the buffer, from a column of the run on.
+    [[nodiscard]] std::uint32_t sample(std::uint32_t layer, int column) const {
+        const ShadeJob& job = jobs_[job_of_layer_[layer]];
+        return job.buffer + static_cast<std::uint32_t>(column - job.from);
+    }
     /// Puts a run's layers into `partial_`, those that lie side by side in one group.
     void group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run);
 
@@ -52,7 +57,6 @@ class RowShader {
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
     std::vector<std::uint32_t> samples_;
     std::vector<PartialLayer> partial_;
-    std::vector<std::uint32_t> partial_layers_;  // parallel to partial_: indices into RowSweep::layers
     ShadeBuffer buffer_, row_, upper_;
     Work work_;
 };

@@ -70,7 +70,7 @@ TEST_CASE("a pixel covered in part shows what lies behind for the rest") {
         const RowSpan sky = span_of({{0, 8}, {0, 8}, {0, 8}, {0, 8}});
         const auto red_share = [&](const RowSpan& span, int lines) {
             const std::vector<PartialLayer> layers{{0, 0, &span}, {1, 99, &sky}};
-            composite_partial(buffer, layers, 5, lines, row);
+            composite_partial(buffer, layers, 5, 6, lines, row);
             CHECK(row.red[5] + row.blue[5] == Approx(1).epsilon(1e-6));
             return row.red[5];
         };
@@ -92,7 +92,7 @@ TEST_CASE("surfaces of one object that meet within a pixel leave nothing of the 
         const RowSpan left = span_of({{0, 2.375}, {0, 2.5}}), right = span_of({{2.375, 8}, {2.5, 8}}),
                       sky = span_of({{0, 8}, {0, 8}});
         const std::vector<PartialLayer> layers{{0, 7, &left}, {1, 7, &right}, {2, 99, &sky}};
-        composite_partial(buffer, layers, 2, 2, row);
+        composite_partial(buffer, layers, 2, 3, 2, row);
         CHECK(row.red[2] == Approx(0.4375));
         CHECK(row.green[2] == Approx(0.5625));
         CHECK(row.blue[2] == Approx(0).margin(1e-6));
@@ -106,7 +106,7 @@ TEST_CASE("a translucent edge lets its own share through and no more") {
         row.resize(8 + kShadePadding);
         const RowSpan front = span_of({{3.5, 8}, {3.5, 8}}), all = span_of({{0, 8}, {0, 8}});
         const std::vector<PartialLayer> layers{{0, 1, &front}, {1, 2, &all}, {2, 99, &all}};
-        composite_partial(buffer, layers, 3, 2, row);
+        composite_partial(buffer, layers, 3, 4, 2, row);
         CHECK(row.red[3] == Approx(0.25));
         CHECK(row.green[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
         CHECK(row.blue[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));

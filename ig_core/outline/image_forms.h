@@ -81,13 +81,13 @@ struct RowRoots {
 };
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 /// The same, one of them.
-inline double rising_on_row(const RowConic& conic, double zeta) {
+inline double root_on_row(const RowConic& conic, double zeta, bool rising) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
-}
-inline double falling_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+    const double sum = std::copysign(root + std::abs(beta), 0.0 - beta);  // never cancels
+    // gamma / sum or sum / alpha, looked up: no branch could foresee which.
+    const std::array<double, 3> parts{conic.gamma_at(zeta), sum, conic.alpha};
+    const std::size_t first = (beta <= 0.0) == rising ? 1 : 0;
+    return parts[first] / parts[first + 1];
 }
 
 /// What rows and samples ask for comes first, what only the set-up does last.

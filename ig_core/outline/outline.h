@@ -110,13 +110,22 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
 
+/// Which z-band of an outline a scan line lies in. Scan lines come in order, so the next one's is looked for from there
+/// on; whatever it is to begin with is right.
+using BandPlace = std::uint32_t;
+inline constexpr BandPlace kHighestBand = std::numeric_limits<BandPlace>::max();
+
 /// The visible surfaces on the scan line z, from left to right: from the z-band the row lies in, or solved directly
 /// where the band's order does not hold to within rounding. Returns how many were written to `cuts` (room for
 /// kMaxCuts).
-int cuts_on_row(const Outline& outline, double z, Cut* cuts);
+int cuts_on_row(const Outline& outline, double z, BandPlace& band, Cut* cuts);
+inline int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
+    BandPlace band = kHighestBand;
+    return cuts_on_row(outline, z, band, cuts);
+}
 
 /// The same by the row's z-band alone; absent where the row has to be solved directly.
-std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts);
+std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& band, Cut* cuts);
 
 /// Where a boundary crosses the row zeta: xi, infinite at the ends of a row.
 double intercept(const Outline& outline, const Boundary& boundary, double zeta);

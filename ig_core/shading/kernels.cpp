@@ -117,11 +117,10 @@ HWY_INLINE void composite_cells(const ShadeBuffer& buffer, std::span<const Parti
             group = layer.group;
             const RowSpan& span = *layer.span;
             const std::size_t sample = layer.sample + static_cast<std::size_t>(column - from);
-            const bool whole = span.inner_from <= column && column < span.inner_to;
             const Cells alpha = hn::Set(d, buffer.opacity[sample]);
             Cells sum = zero, left = zero;
             for (std::size_t i = 0; i < kCells; i += kCellLanes) {
-                const Cells cover = whole ? one : cell_cover(i, lines, span, column);
+                const Cells cover = cell_cover(i, lines, span, column);
                 const Cells weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + i));
                 const Cells rest = hn::Max(zero, hn::Sub(hn::Load(d, through + i), weight));
                 hn::Store(rest, d, through + i);

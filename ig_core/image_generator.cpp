@@ -160,18 +160,19 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
     for (const std::uint32_t place : objects.on(strip)) {
         const ImageBounds& around = objects.bounds(place);
         const double near_u = around.near_u();
-        const double from = rows[0].column(around.x_from), to = rows[0].column(around.x_to);
-        if (worker.strip_cover.hides(from, to, near_u)) continue;
+        const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
+        if (worker.strip_cover.hides(columns, near_u)) continue;
         const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;
+        BandPlace band = kHighestBand;
         CoveredColumns on_all_rows{0, rows[0].columns, 1.0 / kNearDepth};
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const PixelRow& row = rows[r];
             CoveredColumns covered{0, 0, 0.0};
             if (row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
-                !worker.covers[r].hides(from, to, near_u)) {
+                !worker.covers[r].hides(columns, near_u)) {
                 std::vector<RowSpan>& spans = worker.spans[r];
                 const std::size_t before = spans.size();
-                add_object_spans(objects.outline(place, worker.outline_time), place, opaque, row, spans);
+                add_object_spans(objects.outline(place, worker.outline_time), place, opaque, row, band, spans);
                 if (opaque && around.in_front()) covered = columns_covered(std::span(spans).subspan(before));
                 worker.covers[r].add(covered.from, covered.to, covered.far_u);
             }
@@ -288,8 +289,8 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     // What is sampled at the middles of its rows only must not slip between them.
     const bool may_slip = quality.sub_scan_lines == 0 && across > 1.0;
     g.look_at_features(view, environment, may_slip ? view.image.row_step : asked.image.row_step);
-    const FrameShading frame{&view,  &g.solids, &g.paints, &g.scene.lights, make_frame_light(g.scene, environment),
-                             quality};
+    const FrameShading frame{glm::transpose(view.eye_from_scene), &g.paints, &g.scene.lights,
+                             make_frame_light(g.scene, environment), quality};
     g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {
         own.shader.draw(frame, row, own.sweep);
         write_row(own.shader, row.row, quality.shading, image);

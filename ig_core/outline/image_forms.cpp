@@ -25,6 +25,19 @@ void set_forms(EyeSolid& e) {
                 e.determinant * outer(e.anchor);
 }
 
+std::array<float, 3> to_float(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+SceneQuadric in_scene(const Solid& solid, const glm::dvec3& eye_from_anchor) {
+    const Sym3& m = solid.m;
+    return {{static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz), static_cast<float>(m.xy),
+             static_cast<float>(m.xz), static_cast<float>(m.yz)},
+            to_float(solid.w),
+            to_float(eye_from_anchor),
+            solid.centre_value > 0.0 ? static_cast<float>(1.0 / solid.centre_value) : 0.0F};
+}
+
 /// intersection_curve_on_rows with the anchor on the Y axis, as it is in a sheared space: written out, as many of its
 /// terms are zero there, which saves four tenths of the time.
 RowConic curve_about_axis(const EyeSolid& e, const EyePlane& plane) {
@@ -107,17 +120,21 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
     out.c = solid.c + 2.0 * along * glm::dot(solid.w, solid.axis);
     out.v = out.w - out.m * out.anchor;
     out.s = solid.quadric_at(eye);
+    out.in_scene = in_scene(solid, eye.metres - out.scene_anchor.metres);
     set_forms(out);
     out.flat_side.reset();
     for (const SolidPlane& side : solid.flat_sides)
         if (const double at_eye = solid.plane_at(side, eye); at_eye < 0.0)
             out.flat_side = EyePlane{covector(side.normal), side.offset, at_eye, 0, false};
 
-    out.plane_count = 0;
-    for (const SolidPlane& plane : solid.planes)
+    out.plane_count = out.first_face = 0;
+    for (const SolidPlane& plane : solid.planes) {
+        if (plane.surface == 0) out.first_face = out.plane_count + 1;
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            covector(plane.normal), plane.offset + along * glm::dot(plane.normal, solid.axis),
-            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface, plane.surface != 0};
+            covector(plane.normal),     plane.offset + along * glm::dot(plane.normal, solid.axis),
+            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
+            plane.surface != 0,         to_float(-plane.normal)};
+    }
     if (near_plane)
         out.planes[static_cast<std::size_t>(out.plane_count++)] = {
             {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};

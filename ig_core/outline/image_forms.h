@@ -41,7 +41,16 @@ struct EyePlane {
     double local_offset = 0.0;  ///< P at the anchor
     double at_eye = 0.0;        ///< P at the eye (B4 of Eq 10, 13): positive where the plane faces away
     int surface = kNoSurface;
-    bool cuts = true;  ///< false for a half-space that only picks a sheet
+    bool cuts = true;                      ///< false for a half-space that only picks a sheet
+    std::array<float, 3> scene_outward{};  ///< unit normal of the solid's face, scene axes: for shading
+};
+
+/// The quadric in scene axes, in single precision: for shading.
+struct SceneQuadric {
+    std::array<float, 6> m{};                ///< M: xx yy zz xy xz yz
+    std::array<float, 3> gradient{};         ///< w
+    std::array<float, 3> eye_from_anchor{};  ///< m
+    float inverse_centre_value = 0;          ///< 1 / |Q(centre)|, 0 for a quadric without a centre
 };
 
 /// A conic of the image restricted to the row zeta: alpha xi^2 + 2 beta xi + gamma, beta and gamma polynomials in zeta.
@@ -72,13 +81,13 @@ struct RowRoots {
 };
 RowRoots roots_on_row(const RowConic& conic, double zeta);
 /// The same, one of them.
-inline double rising_on_row(const RowConic& conic, double zeta) {
+inline double root_on_row(const RowConic& conic, double zeta, bool rising) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? (root - beta) / conic.alpha : conic.gamma_at(zeta) / -(beta + root);  // never cancels
-}
-inline double falling_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    return beta <= 0.0 ? conic.gamma_at(zeta) / (root - beta) : -(beta + root) / conic.alpha;
+    const double sum = std::copysign(root + std::abs(beta), 0.0 - beta);  // never cancels
+    // gamma / sum or sum / alpha, looked up: no branch could foresee which.
+    const std::array<double, 3> parts{conic.gamma_at(zeta), sum, conic.alpha};
+    const std::size_t first = (beta <= 0.0) == rising ? 1 : 0;
+    return parts[first] / parts[first + 1];
 }
 
 /// What rows and samples ask for comes first, what only the set-up does last.
@@ -87,11 +96,13 @@ struct EyeSolid {
     glm::dvec3 v{0.0};      ///< gradient of Q/2 at the eye
     double s = 0;           ///< Q at the eye
     Sym3 m;
-    Sym3 limb;                ///< L
-    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
+    Sym3 limb;  ///< L
+    SceneQuadric in_scene;
     int plane_count = 0;
+    int first_face = 0;                 ///< index in `planes` of surface 1's, which the file's others follow
     std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
     std::array<EyePlane, kMaxEyePlanes> planes;
+    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
     SetUp set_up = SetUp::anchored;
     glm::dvec3 anchor{0.0};
     Sym3 adjugate;
@@ -100,6 +111,11 @@ struct EyeSolid {
     double c = 0;
     Sym3 tangent;  ///< planes l.p = 0 through the eye touch the quadric where l' tangent l = 0 (dual of the limb, over
                    ///< s)
+
+    /// The plane of surface j > 0.
+    [[nodiscard]] const EyePlane& face(int surface) const {
+        return planes[static_cast<std::size_t>(first_face + surface - 1)];
+    }
 };
 
 /// Brings a solid into the sheared eye space of an eye point and attitude. `near_plane` and `infinity` add those

@@ -69,6 +69,17 @@ void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
     band.count = static_cast<std::uint32_t>(out.changes.size()) - band.first;
 }
 
+/// The band that a row lies in, looked for from `place` on; null where there is none.
+const ZBand* find_band(const std::vector<ZBand>& bands, double zeta, BandPlace& place) {
+    if (bands.empty()) return nullptr;
+    const auto last = static_cast<BandPlace>(bands.size() - 1);
+    place = std::min(place, last);
+    while (place > 0 && bands[place - 1].zeta_to >= zeta) --place;
+    while (place < last && bands[place].zeta_to < zeta) ++place;
+    const ZBand& band = bands[place];
+    return band.zeta_from <= zeta && zeta <= band.zeta_to ? &band : nullptr;
+}
+
 /// What a row in the middle of each band shows.
 void solve_bands(Outline& out) {
     RowOrder order;
@@ -98,9 +109,8 @@ void tell_bands(Outline& out) {
 double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
     switch (boundary.kind) {
         case Boundary::Kind::rising:
-            return rising_on_row(outline.curves[boundary.index], zeta);
         case Boundary::Kind::falling:
-            return falling_on_row(outline.curves[boundary.index], zeta);
+            return root_on_row(outline.curves[boundary.index], zeta, boundary.kind == Boundary::Kind::rising);
         case Boundary::Kind::line:
             return outline.lines[boundary.index].on_row(zeta);
         case Boundary::Kind::left_end:
@@ -195,12 +205,12 @@ void limb_on_lines(const Outline& outline, const double* z, std::size_t count, d
     }
 }
 
-int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
-    const std::optional<int> count = cuts_by_band(outline, z, cuts);
+int cuts_on_row(const Outline& outline, double z, BandPlace& band, Cut* cuts) {
+    const std::optional<int> count = cuts_by_band(outline, z, band, cuts);
     return count ? *count : cuts_on_row_directly(outline, z, cuts);
 }
 
-std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts) {
+std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& place, Cut* cuts) {
     const double zeta = z - outline.solid.z0, x0 = outline.solid.x0;
     if (zeta < outline.zeta_from || zeta > outline.zeta_to) return 0;
     if (outline.direct) return std::nullopt;
@@ -209,9 +219,8 @@ std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts) {
         cuts[0].surface = 0;
         return cuts[0].from < cuts[0].to ? 1 : 0;
     }
-    const auto band = std::lower_bound(outline.bands.begin(), outline.bands.end(), zeta,
-                                       [](const ZBand& b, double at) { return b.zeta_to < at; });
-    if (band == outline.bands.end() || zeta < band->zeta_from) return 0;
+    const ZBand* band = find_band(outline.bands, zeta, place);
+    if (band == nullptr) return 0;
     int count = 0;
     double left = -kInfinity;
     int surface = kNoSurface;

@@ -75,16 +75,16 @@ struct KeyPoint {
 
 struct Outline {
     std::uint32_t object = 0;
-    EyeSolid solid;
-    std::vector<Curve> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
-    std::vector<EdgeLine> lines;
-    std::vector<KeyPoint> key_points;
-    std::vector<ZBand> bands;  ///< by rising zeta; what is in none of them shows nothing
-    std::vector<Change> changes;
     bool limb_only = false;             ///< nothing but the limb: one band, one surface
     bool direct = false;                ///< every row is solved by itself: solids without end
     double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing
     double near_u = 0, far_u = 0;       ///< bounds of 1/k over the solid
+    std::vector<ZBand> bands;           ///< by rising zeta; what is in none of them shows nothing
+    std::vector<Change> changes;
+    std::vector<Curve> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
+    std::vector<EdgeLine> lines;
+    EyeSolid solid;
+    std::vector<KeyPoint> key_points;
 };
 
 /// The rows on which outlines will be asked for: z = top - (row + 1/2) step, row in 0..count-1.
@@ -110,13 +110,22 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up = SetUp::anchored);
 
+/// Which z-band of an outline a scan line lies in. Scan lines come in order, so the next one's is looked for from there
+/// on; whatever it is to begin with is right.
+using BandPlace = std::uint32_t;
+inline constexpr BandPlace kHighestBand = std::numeric_limits<BandPlace>::max();
+
 /// The visible surfaces on the scan line z, from left to right: from the z-band the row lies in, or solved directly
 /// where the band's order does not hold to within rounding. Returns how many were written to `cuts` (room for
 /// kMaxCuts).
-int cuts_on_row(const Outline& outline, double z, Cut* cuts);
+int cuts_on_row(const Outline& outline, double z, BandPlace& band, Cut* cuts);
+inline int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
+    BandPlace band = kHighestBand;
+    return cuts_on_row(outline, z, band, cuts);
+}
 
 /// The same by the row's z-band alone; absent where the row has to be solved directly.
-std::optional<int> cuts_by_band(const Outline& outline, double z, Cut* cuts);
+std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& band, Cut* cuts);
 
 /// Where a boundary crosses the row zeta: xi, infinite at the ends of a row.
 double intercept(const Outline& outline, const Boundary& boundary, double zeta);

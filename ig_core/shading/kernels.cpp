@@ -63,58 +63,81 @@ void CompositeWhole(const ShadeBuffer& buffer, std::span<const std::uint32_t> sa
     }
 }
 
-/// Share of the cells of one sub-scan line of a pixel, from cell `first` on, that lies between two ends, given in cells
-/// from the pixel's left edge.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V cell_cover(D d, std::size_t first, float from, float to) {
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), cell = hn::Iota(d, static_cast<float>(first));
-    const V upper = hn::Clamp(hn::Sub(hn::Set(d, to), cell), zero, one);
-    const V lower = hn::Clamp(hn::Sub(hn::Set(d, from), cell), zero, one);
+/// A sub-scan line of cells at a time, or two; less on targets without vectors.
+using CellTag = hn::CappedTag<float, 2 * kCellsPerLine>;
+using Cells = hn::Vec<CellTag>;
+constexpr std::size_t kCellLanes = hn::MaxLanes(CellTag());
+
+/// What the sub-scan lines of cells `first` and on have, in those cells. Cells that no line has are given the last's.
+HWY_INLINE Cells of_lines(std::size_t first, std::size_t lines, const std::array<double, kMaxSubScanLines>& ends,
+                          int column) {
+    const CellTag d;
+    const std::size_t line = std::min(first / kCellsPerLine, lines - 1);
+    const auto in_cells = [&](std::size_t i) { return static_cast<float>(ends[i] - column) * kCellsPerLine; };
+    const Cells next = hn::Set(d, in_cells(std::min(line + 1, lines - 1)));
+    return hn::IfThenElse(hn::FirstN(d, kCellsPerLine), hn::Set(d, in_cells(line)), next);
+}
+
+/// Share of the cells from `first` on of a pixel that lies between a span's ends.
+HWY_INLINE Cells cell_cover(std::size_t first, std::size_t lines, const RowSpan& span, int column) {
+    const CellTag d;
+    const Cells zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    alignas(32) static constexpr float kLeftEdges[2 * kCellsPerLine] = {0, 1, 2, 3, 0, 1, 2, 3};
+    const Cells left_edge = hn::Load(d, kLeftEdges + first % kCellsPerLine);
+    const Cells upper = hn::Clamp(hn::Sub(of_lines(first, lines, span.to, column), left_edge), zero, one);
+    const Cells lower = hn::Clamp(hn::Sub(of_lines(first, lines, span.from, column), left_edge), zero, one);
     return hn::Max(zero, hn::Sub(upper, lower));
 }
 
-void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
-                      ShadeBuffer& row) {
-    const hn::CappedTag<float, kCellsPerLine>
-        d;  // a sub-scan line of cells at a time, or less on targets without vectors
-    using V = hn::Vec<decltype(d)>;
-    const auto lines = static_cast<std::size_t>(sub_lines);
-    const std::size_t cells = lines * kCellsPerLine;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
-    alignas(16) float through[kMaxCells], at_group[kMaxCells];
-    std::fill_n(through, cells, 1.0F);
-    const float scale = 1.0F / static_cast<float>(cells);
-    std::uint32_t group = ~0U;
-    float red = 0, green = 0, blue = 0;
-    for (const PartialLayer& layer : layers) {
-        // Layers of one group lie side by side: what one of them leaves uncovered the next may fill, so both start
-        // from the light that reached the group. Otherwise the background would show along their common edge.
-        if (layer.group != group) std::copy_n(through, cells, at_group);
-        group = layer.group;
-        const RowSpan& span = *layer.span;
-        const bool whole = span.inner_from <= column && column < span.inner_to;
-        const V alpha = hn::Set(d, buffer.opacity[layer.sample]);
-        V sum = zero, left = zero;
-        for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
-            const std::size_t line = i / kCellsPerLine;
-            const V cover =
-                whole ? one
-                      : cell_cover(d, i % kCellsPerLine, static_cast<float>(span.from[line] - column) * kCellsPerLine,
-                                   static_cast<float>(span.to[line] - column) * kCellsPerLine);
-            const V weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + i));
-            const V rest = hn::Max(zero, hn::Sub(hn::Load(d, through + i), weight));
-            hn::Store(rest, d, through + i);
-            sum = hn::Add(sum, weight);
-            left = hn::Max(left, rest);
+/// Columns of up to kCells / kCellsPerLine sub-scan lines; cells that no line has are in the dark from the start.
+template <std::size_t kCells>
+HWY_INLINE void composite_cells(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to,
+                                std::size_t lines, ShadeBuffer& row) {
+    const CellTag d;
+    const Cells zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    const float cells = static_cast<float>(lines * kCellsPerLine), scale = 1.0F / cells;
+    alignas(32) float through[kCells], at_group[kCells];
+    for (int column = from; column < to; ++column) {
+        for (std::size_t i = 0; i < kCells; i += kCellLanes)
+            hn::Store(hn::IfThenElseZero(hn::Lt(hn::Iota(d, static_cast<float>(i)), hn::Set(d, cells)), one), d,
+                      through + i);
+        std::uint32_t group = ~0U;
+        float red = 0, green = 0, blue = 0;
+        for (const PartialLayer& layer : layers) {
+            // Layers of one group lie side by side: what one of them leaves uncovered the next may fill, so both start
+            // from the light that reached the group. Otherwise the background would show along their common edge.
+            if (layer.group != group) std::copy_n(through, kCells, at_group);
+            group = layer.group;
+            const RowSpan& span = *layer.span;
+            const std::size_t sample = layer.sample + static_cast<std::size_t>(column - from);
+            const Cells alpha = hn::Set(d, buffer.opacity[sample]);
+            Cells sum = zero, left = zero;
+            for (std::size_t i = 0; i < kCells; i += kCellLanes) {
+                const Cells cover = cell_cover(i, lines, span, column);
+                const Cells weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + i));
+                const Cells rest = hn::Max(zero, hn::Sub(hn::Load(d, through + i), weight));
+                hn::Store(rest, d, through + i);
+                sum = hn::Add(sum, weight);
+                left = hn::Max(left, rest);
+            }
+            const float weight = hn::GetLane(hn::SumOfLanes(d, sum)) * scale;
+            red += weight * buffer.red[sample];
+            green += weight * buffer.green[sample];
+            blue += weight * buffer.blue[sample];
+            if (hn::AllTrue(d, hn::Lt(left, hn::Set(d, 1.0F / 4096.0F)))) break;
         }
-        const float weight = hn::GetLane(hn::SumOfLanes(d, sum)) * scale;
-        red += weight * buffer.red[layer.sample];
-        green += weight * buffer.green[layer.sample];
-        blue += weight * buffer.blue[layer.sample];
-        if (hn::AllTrue(d, hn::Lt(left, hn::Set(d, 1.0F / 4096.0F)))) break;
+        const auto at = static_cast<std::size_t>(column);
+        row.red[at] = red, row.green[at] = green, row.blue[at] = blue;
     }
-    const auto at = static_cast<std::size_t>(column);
-    row.red[at] = red, row.green[at] = green, row.blue[at] = blue;
+}
+
+void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
+                      ShadeBuffer& row) {
+    const auto lines = static_cast<std::size_t>(sub_lines);
+    if (lines <= 2)
+        composite_cells<2 * kCellsPerLine>(buffer, layers, from, to, lines, row);
+    else
+        composite_cells<kMaxCells>(buffer, layers, from, to, lines, row);
 }
 
 void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
@@ -213,9 +236,9 @@ void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> s
                      std::size_t column) {
     HWY_DYNAMIC_DISPATCH(CompositeWhole)(buffer, samples, count, row, column);
 }
-void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
+void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
                        ShadeBuffer& row) {
-    HWY_DYNAMIC_DISPATCH(CompositePartial)(buffer, layers, column, sub_lines, row);
+    HWY_DYNAMIC_DISPATCH(CompositePartial)(buffer, layers, from, to, sub_lines, row);
 }
 void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     HWY_DYNAMIC_DISPATCH(AverageSquares)(upper, count, lower);

@@ -46,10 +46,7 @@ bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
     return true;
 }
 
-void set_quadric(const FrameShading& frame, const RowSpan& span, double x, double z, double column_step,
-                 ShadeInput& in) {
-    const EyeSolid& e = span.surface.outline->solid;
-    const Solid& solid = (*frame.solids)[span.surface.outline->object];
+void set_quadric(const EyeSolid& e, double x, double z, double column_step, ShadeInput& in) {
     const double zeta = z - e.z0;
     in.kind = ShadeInput::Kind::quadric;
     in.xi = static_cast<float>(x - e.x0);
@@ -62,12 +59,19 @@ void set_quadric(const FrameShading& frame, const RowSpan& span, double x, doubl
     };
     in.a = on_row(e.m);
     in.limb = on_row(e.limb);
-    in.inverse_centre_value = solid.centre_value > 0.0 ? static_cast<float>(1.0 / solid.centre_value) : 0.0F;
-    const Sym3& m = solid.m;
-    in.m = {static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz),
-            static_cast<float>(m.xy), static_cast<float>(m.xz), static_cast<float>(m.yz)};
-    in.eye_from_anchor = to_float(frame.view->eye.metres - e.scene_anchor.metres);
-    in.gradient = to_float(solid.w);
+    in.m = e.in_scene.m;
+    in.gradient = e.in_scene.gradient;
+    in.eye_from_anchor = e.in_scene.eye_from_anchor;
+    in.inverse_centre_value = e.in_scene.inverse_centre_value;
+}
+
+/// `depth` is that of the job's first sample.
+void set_plane(const std::array<float, 3>& outward, const DepthOnLine::Sample& depth, ShadeInput& in) {
+    in.kind = ShadeInput::Kind::plane;
+    in.normal = outward;
+    in.plane_u = static_cast<float>(depth.u);
+    in.plane_u_step = static_cast<float>(depth.slope);
+    in.inverse_centre_value = 0.0F;
 }
 
 /// Colour of a light's disc: what the haze lets through of it, no more than the picture can hold, over the haze's own.
@@ -80,62 +84,60 @@ std::array<float, 3> seen_light(const LightPoint& light, const SeenLight& seen, 
     return to_float(haze + std::min(kept * light.intensity, room) * light.colour);
 }
 
-}  // namespace
-
-ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to) {
-    const SampleRange range = sample_range(row, span);
-    const Surface& surface = span.surface;
+/// What all jobs of a row have in common.
+ShadeInput row_input(const FrameShading& frame, const PixelRow& row) {
     ShadeInput in;
-    in.count = to - from;
     in.light = &frame.light;
     in.smooth_stretches = frame.quality.smooth_stretches;
     in.pairs = shades_pairs(frame.quality.shading);
+    in.ray_step = to_float(frame.scene_from_eye[0] * row.column_step);
+    in.along_row = to_float(frame.scene_from_eye[2] * row.row_step);
+    return in;
+}
+
+/// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
+void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to, ShadeInput& in) {
+    const SampleRange range = sample_range(row, span);
+    const Surface& surface = span.surface;
+    in.count = to - from;
     const double first = from + 0.5, x = row.x(first);
     in.least_column = static_cast<float>(range.from - first);
     in.most_column = static_cast<float>(range.to - first);
-    const glm::dmat3 scene_from_eye = glm::transpose(frame.view->eye_from_scene);
-    in.ray = to_float(scene_from_eye * glm::dvec3(x, 1.0, range.z));
-    in.ray_step = to_float(scene_from_eye[0] * row.column_step);
-    in.along_row = to_float(scene_from_eye[2] * frame.view->image.row_step);
+    in.ray = to_float(frame.scene_from_eye * glm::dvec3(x, 1.0, range.z));
+    constexpr std::array<float, 3> kUp{0, 0, 1};
+    const auto depth = [&] { return DepthOnLine(surface, row, range.z).at(first); };
     switch (surface.kind) {
         case Surface::Kind::sky:
             in.kind = ShadeInput::Kind::sky;
-            return in;
-        case Surface::Kind::quadric:
-            set_quadric(frame, span, x, range.z, row.column_step, in);
-            in.paint = &frame.paints->objects[surface.outline->object];
-            return in;
-        case Surface::Kind::face: {
-            const Solid& solid = (*frame.solids)[surface.outline->object];
-            const auto plane = std::find_if(solid.planes.begin(), solid.planes.end(),
-                                            [&](const SolidPlane& p) { return p.surface == surface.surface; });
-            in.normal = to_float(-plane->normal);
-            in.paint = &frame.paints->objects[surface.outline->object];
             break;
-        }
         case Surface::Kind::light:
             in.kind = ShadeInput::Kind::light;
             in.colour = seen_light((*frame.lights)[surface.index], *surface.light, frame.light);
-            return in;
+            break;
+        case Surface::Kind::quadric:
+            in.paint = &frame.paints->objects[surface.outline->object];
+            set_quadric(surface.outline->solid, x, range.z, row.column_step, in);
+            break;
+        case Surface::Kind::face:
+            in.paint = &frame.paints->objects[surface.outline->object];
+            set_plane(surface.outline->solid.face(surface.surface).scene_outward, depth(), in);
+            break;
         case Surface::Kind::marking:
-            in.normal = {0, 0, 1};
             in.paint = &frame.paints->markings[surface.index];
+            set_plane(kUp, depth(), in);
             break;
         case Surface::Kind::ground:
-            in.normal = {0, 0, 1};
             in.paint = &frame.paints->ground;
+            set_plane(kUp, depth(), in);
             break;
         case Surface::Kind::deck:
-            in.normal = {0, 0, 1};
             in.paint = &frame.paints->decks[surface.index];
+            set_plane(kUp, depth(), in);
             break;
     }
-    in.kind = ShadeInput::Kind::plane;
-    const DepthOnLine depth(surface, row, range.z);
-    in.plane_u = static_cast<float>(depth.at(first).u);
-    in.plane_u_step = static_cast<float>(depth.at(first).slope);
-    return in;
 }
+
+}  // namespace
 
 #ifndef NDEBUG
 namespace {
@@ -177,7 +179,6 @@ void RowShader::plan(const RowSweep& sweep) {
 
 void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
     partial_.clear();
-    partial_layers_.clear();
     for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
         const RowSpan& span = sweep.spans[sweep.layers[i]];
         // Beside all layers from some group on: it changes nothing to draw it with that group.
@@ -186,23 +187,21 @@ void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const L
         for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
             if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
         while (place > 0 && group != i && partial_[place - 1].group != group) --place;
-        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {0, group, &span});
-        partial_layers_.insert(partial_layers_.begin() + static_cast<std::ptrdiff_t>(place), i);
+        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {sample(i, run.from), group, &span});
     }
 }
 
 void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep) {
     plan(sweep);
+    ShadeInput input = row_input(frame, row);
     // In buffer order: what a job writes past its end is overwritten by the next.
-    for (const ShadeJob& job : jobs_)
-        work_.terms += shade(shade_input(frame, row, sweep.spans[job.span], job.from, job.to), buffer_, job.buffer);
+    for (const ShadeJob& job : jobs_) {
+        set_job(frame, row, sweep.spans[job.span], job.from, job.to, input);
+        work_.terms += shade(input, buffer_, job.buffer);
+    }
 
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
     for (const LayerRun& run : sweep.runs) {
-        const auto sample = [&](std::uint32_t layer, int column) {
-            const ShadeJob& job = jobs_[job_of_layer_[layer]];
-            return job.buffer + static_cast<std::uint32_t>(column - job.from);
-        };
         if (!run.partial) {
             samples_.clear();
             for (std::uint32_t i = 0; i < run.layer_count; ++i)
@@ -212,10 +211,7 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
         }
         group_layers(row, sweep, run);
         work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        for (int column = run.from; column < run.to; ++column) {
-            for (std::size_t i = 0; i < partial_.size(); ++i) partial_[i].sample = sample(partial_layers_[i], column);
-            composite_partial(buffer_, partial_, column, row.sub_lines, row_);
-        }
+        composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
     }
     assert(all_numbers(row_, row.columns));
 }

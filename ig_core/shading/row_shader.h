@@ -14,16 +14,12 @@ namespace quadrig {
 
 /// What is common to all rows of a frame. Spans lead into it by Surface::outline and Surface::index.
 struct FrameShading {
-    const View* view = nullptr;
-    const std::vector<Solid>* solids = nullptr;  ///< by object
+    glm::dmat3 scene_from_eye{1.0};
     const FramePaints* paints = nullptr;
     const std::vector<LightPoint>* lights = nullptr;  ///< the scene's
     FrameLight light;
     Quality quality;
 };
-
-/// The numbers of one job on its row.
-ShadeInput shade_input(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to);
 
 /// Shades and composites one row at a time; keeps its memory from row to row.
 class RowShader {
@@ -48,6 +44,11 @@ class RowShader {
 
   private:
     void plan(const RowSweep& sweep);
+    /// Where a layer of a run stands in the buffer, from a column of the run on.
+    [[nodiscard]] std::uint32_t sample(std::uint32_t layer, int column) const {
+        const ShadeJob& job = jobs_[job_of_layer_[layer]];
+        return job.buffer + static_cast<std::uint32_t>(column - job.from);
+    }
     /// Puts a run's layers into `partial_`, those that lie side by side in one group.
     void group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run);
 
@@ -56,7 +57,6 @@ class RowShader {
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
     std::vector<std::uint32_t> samples_;
     std::vector<PartialLayer> partial_;
-    std::vector<std::uint32_t> partial_layers_;  // parallel to partial_: indices into RowSweep::layers
     ShadeBuffer buffer_, row_, upper_;
     Work work_;
 };

@@ -24,9 +24,9 @@ void texture_values(const FrameTexture& texture, std::span<const float> x, std::
 void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> samples, int count, ShadeBuffer& row,
                      std::size_t column);
 
-/// A layer of a pixel that it covers in part: its sample, and the share of each cell that it covers. A cell is a
-/// quarter of a sub-scan line of the pixel. Layers of one group lie side by side (surfaces of one object, objects that
-/// abut).
+/// A layer of a run of pixels that it covers in part: where its first column stands in the buffer, and its ends. What
+/// it covers is told of cells, quarters of a sub-scan line of a pixel. Layers of one group lie side by side (surfaces
+/// of one object, objects that abut).
 inline constexpr int kCellsPerLine = 4;
 inline constexpr int kMaxCells = kCellsPerLine * kMaxSubScanLines;
 struct PartialLayer {
@@ -34,7 +34,8 @@ struct PartialLayer {
     std::uint32_t group = 0;
     const RowSpan* span = nullptr;
 };
-void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int column, int sub_lines,
+/// Lays the layers of columns [from, to) over one another, front to back.
+void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
                        ShadeBuffer& row);
 
 /// `lower` becomes the mean of 2 x 2 samples: of columns 2 i and 2 i + 1 of both rows, `count` of them, from the left.

@@ -31,10 +31,13 @@ void RowCover::add(int from_column, int to_column, double far_u) {
     note(columns_, last_block * kBlock, to);
 }
 
-bool RowCover::hides(double from_column, double to_column, double near_u) const {
-    const auto column_of = [&](double column) { return std::clamp(column, 0.0, static_cast<double>(width_)); };
-    const auto from = static_cast<std::size_t>(column_of(from_column));
-    const auto to = static_cast<std::size_t>(std::ceil(column_of(to_column)));
+Columns columns_touched(const PixelRow& row, double x_from, double x_to) {
+    const auto column = [&](double x) { return std::clamp(row.column(x), 0.0, static_cast<double>(row.columns)); };
+    return {static_cast<int>(column(x_from)), static_cast<int>(std::ceil(column(x_to)))};
+}
+
+bool RowCover::hides(const Columns& columns, double near_u) const {
+    const auto from = static_cast<std::size_t>(columns.from), to = static_cast<std::size_t>(columns.to);
     if (from < to && empty_) return false;
     const auto u = static_cast<float>(near_u * kMore);
     const std::size_t middle = (from + to) / 2;  // what is seen is mostly seen there

@@ -7,6 +7,13 @@
 
 namespace quadrig {
 
+/// Columns [from, to) of a row, clipped to it.
+struct Columns {
+    int from = 0, to = 0;
+};
+/// Those that the image-plane stretch from x_from to x_to touches; either may be infinite.
+Columns columns_touched(const PixelRow& row, double x_from, double x_to);
+
 /// Bounds of 1/k from below over whole columns of one row. Good when spans come roughly front to back.
 class RowCover {
   public:
@@ -14,7 +21,7 @@ class RowCover {
     /// Columns [from, to) show opaque surfaces alone, none of them farther than 1/`far_u`.
     void add(int from, int to, double far_u);
     /// Whether nothing that lies within these columns and nowhere nearer than 1/`near_u` can be seen.
-    [[nodiscard]] bool hides(double from_column, double to_column, double near_u) const;
+    [[nodiscard]] bool hides(const Columns& columns, double near_u) const;
 
   private:
     // Zero where anything may be seen. Of a column both bounds hold, so that wide spans are noted by the block.

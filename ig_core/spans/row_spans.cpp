@@ -107,7 +107,7 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
     return span.outer_from < span.outer_to;
 }
 
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
+void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, BandPlace& band,
                       std::vector<RowSpan>& spans) {
     const auto lines = static_cast<std::size_t>(row.sub_lines);
     const double z0 = outline.solid.z0;
@@ -143,7 +143,7 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     const std::size_t first = spans.size();
     std::array<Cut, kMaxCuts> cuts;
     for (std::size_t line = 0; line < lines; ++line) {
-        const int count = cuts_on_row(outline, row.z[line], cuts.data());
+        const int count = cuts_on_row(outline, row.z[line], band, cuts.data());
         std::size_t next = first;  // cuts and spans both run from left to right
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
             const double from = (cuts[i].from - row.left) * scale, to = (cuts[i].to - row.left) * scale;

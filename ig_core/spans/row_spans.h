@@ -24,8 +24,9 @@ struct SeenPolygon {
     double z_from = 0, z_to = 0;  ///< rows outside show nothing
 };
 
-/// Appends the spans of one object to `spans`. `opaque` is false for an object with holes.
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
+/// Appends the spans of one object to `spans`. `opaque` is false for an object with holes; `band` is kept from row to
+/// row.
+void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, BandPlace& band,
                       std::vector<RowSpan>& spans);
 
 /// Appends the spans of ground and cloud decks, and the sky behind everything.

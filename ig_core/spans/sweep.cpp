@@ -1,7 +1,9 @@
 #include "ig_core/spans/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <utility>
 
 #include "ig_core/spans/row_spans.h"
 
@@ -75,13 +77,35 @@ void RowSweep::emit(int from, int to) {
     runs.push_back({from, to, first, count, partial});
 }
 
+/// By counting, where there are many: comparisons, half of which turn out otherwise than foreseen, take five times as
+/// long.
+void RowSweep::sort_starts() {
+    constexpr std::size_t kFew = 32;
+    if (starts_.size() < kFew) return std::sort(starts_.begin(), starts_.end(), std::greater<>());
+    constexpr int kBits = 7;  // of the fourteen that a column has
+    constexpr std::size_t kBins = 1 << kBits;
+    const auto low = [](Start start) { return static_cast<std::size_t>(start.column()) % kBins; };
+    const auto high = [](Start start) { return static_cast<std::size_t>(start.column()) / kBins % kBins; };
+    std::array<std::uint32_t, kBins> low_at{}, high_at{};  // how many a bin has, then where its next one goes
+    for (const Start start : starts_) ++low_at[low(start)], ++high_at[high(start)];
+    std::uint32_t lows = 0, highs = 0;
+    for (std::size_t bin = kBins; bin-- > 0;) {
+        lows += std::exchange(low_at[bin], lows);
+        highs += std::exchange(high_at[bin], highs);
+    }
+    sorted_by_low_.resize(starts_.size(), Start(0, 0));
+    for (auto start = starts_.rbegin(); start != starts_.rend(); ++start)
+        sorted_by_low_[low_at[low(*start)]++] = *start;
+    for (const Start start : sorted_by_low_) starts_[high_at[high(start)]++] = start;
+}
+
 void RowSweep::sweep(const PixelRow& row) {
     runs.clear();
     layers.clear();
     active_.clear();
     starts_.clear();
     for (std::uint32_t i = 0; i < spans.size(); ++i) starts_.emplace_back(spans[i].outer_from, i);
-    std::sort(starts_.begin(), starts_.end(), std::greater<>());
+    sort_starts();
     int column = 0;
     while (column < row.columns) {
         while (!starts_.empty() && starts_.back().column() <= column) {

@@ -28,6 +28,7 @@ class RowSweep {
   private:
     void insert(std::uint32_t index, const PixelRow& row);
     void emit(int from, int to);
+    void sort_starts();
 
     /// Where a span begins: one number, which is quicker to sort than two.
     struct Start {
@@ -38,6 +39,7 @@ class RowSweep {
         friend bool operator>(Start a, Start b) { return a.key > b.key; }
     };
     std::vector<Start> starts_;  // by falling column, then span: the next one is last
+    std::vector<Start> sorted_by_low_;
     /// A span that the sweep is over, with what every step asks of it.
     struct Active {
         std::uint32_t span;

@@ -112,7 +112,8 @@ void sweep_of_rows(benchmark::State& state) {
                 const double z = row.z[0] - outlines[i].solid.z0;
                 if (z + 1e-2 < outlines[i].zeta_from || z - 1e-2 > outlines[i].zeta_to) continue;
                 const bool opaque = !scene.objects[i].paint.translucence;
-                add_object_spans(outlines[i], static_cast<std::uint32_t>(i), opaque, row, sweep.spans);
+                BandPlace band = kHighestBand;
+                add_object_spans(outlines[i], static_cast<std::uint32_t>(i), opaque, row, band, sweep.spans);
             }
             add_plane_spans({}, {}, row, sweep.spans);
             sweep.sweep(row);
@@ -135,8 +136,9 @@ struct RowTally {
         const RowGrid grid = rows_of(view, 2);
         for (const Object& object : scene.objects) {
             make_outline(make_solid(object), 0, view.eye, view.eye_from_scene, grid, outline);
+            BandPlace band = kHighestBand;
             for (int r = 0; r < grid.count; ++r) {
-                const auto count = cuts_by_band(outline, grid.z(r), cuts.data());
+                const auto count = cuts_by_band(outline, grid.z(r), band, cuts.data());
                 if (count && *count == 0) continue;
                 ++rows;
                 direct += !count && !outline.direct;

@@ -105,7 +105,7 @@ void partial_pixels(benchmark::State& state, std::int64_t target) {
     right.inner_to = 5;
     const std::vector<PartialLayer> layers{{0, 0, &left}, {1, 1, &right}};
     for (auto _ : state) {
-        composite_partial(buffer, layers, 0, 2, row);
+        composite_partial(buffer, layers, 0, 1, 2, row);
         benchmark::DoNotOptimize(row.red.data());
     }
     per_item(state, 1);

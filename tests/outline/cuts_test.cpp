@@ -179,3 +179,34 @@ TEST_CASE("z-bands follow one another upwards, and together hold every row that 
     }
     CHECK(banded_solids > 100);
 }
+
+TEST_CASE("a scan line's cuts are the same wherever its z-band is looked for from") {
+    CAPTURE(seed());
+    int rows_with_cuts = 0;
+    for (int trial = 0; trial < trials(300); ++trial) {
+        Randomness random(200'000 + trial);
+        const CutCase given = random_case(random, random.log_between(5, 120));
+        const ImagePlane& image = given.view.image;
+        Outline outline;
+        make_outline(make_solid(given.object), 0, given.view.eye, given.view.eye_from_scene,
+                     {image.top, image.row_step, image.height}, outline);
+        CAPTURE(trial);
+        BandPlace kept = kHighestBand;
+        for (int r = 0; r < image.height; ++r) {
+            const double z = image.z(r + 0.5);
+            BandPlace anywhere = static_cast<BandPlace>(random.below(60));
+            std::array<Cut, kMaxCuts> fresh, next, other;
+            const int count = cuts_on_row(outline, z, fresh.data());
+            REQUIRE(cuts_on_row(outline, z, kept, next.data()) == count);
+            REQUIRE(cuts_on_row(outline, z, anywhere, other.data()) == count);
+            rows_with_cuts += count > 0;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+                for (const Cut& cut : {next[i], other[i]}) {
+                    REQUIRE(cut.from == fresh[i].from);
+                    REQUIRE(cut.to == fresh[i].to);
+                    REQUIRE(cut.surface == fresh[i].surface);
+                }
+        }
+    }
+    CHECK(rows_with_cuts > 0);
+}

@@ -271,3 +271,29 @@ TEST_CASE("the first surface of a ray through an outline's solid is the one that
     }
     CHECK(seen > 500);
 }
+
+TEST_CASE("a face is found by its surface, and what shading takes of quadric and faces is theirs in scene axes") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(1000); ++trial) {
+        const Sight sight = random_sight(trial);
+        const EyeSolid& e = sight.solid;
+        CAPTURE(trial);
+        for (std::size_t j = 0; j < sight.object.planes.size(); ++j) {
+            CAPTURE(j);
+            const EyePlane& face = e.face(static_cast<int>(j) + 1);
+            REQUIRE(face.surface == static_cast<int>(j) + 1);
+            const auto& b = sight.object.planes[j].coefficients;
+            const glm::dvec3 inward = glm::normalize(glm::dvec3(b[0], b[1], b[2]));
+            const auto& n = face.scene_outward;
+            REQUIRE(glm::length(inward + glm::dvec3(n[0], n[1], n[2])) < 1e-6);
+        }
+        // The gradient at the eye, M (eye - anchor) + w, is v of Eq 4 in other axes.
+        const SceneQuadric& q = e.in_scene;
+        const glm::dvec3 p(q.eye_from_anchor[0], q.eye_from_anchor[1], q.eye_from_anchor[2]),
+            w(q.gradient[0], q.gradient[1], q.gradient[2]);
+        const glm::dvec3 at_eye = Sym3{q.m[0], q.m[1], q.m[2], q.m[3], q.m[4], q.m[5]} * p + w;
+        const glm::dvec3 turned = sight.eye_from_scene * at_eye;
+        REQUIRE(std::abs(turned.x - e.v.x) < 1e-5 * (glm::length(at_eye) + glm::length(p)));
+        REQUIRE(std::abs(turned.z - e.v.z) < 1e-5 * (glm::length(at_eye) + glm::length(p)));
+    }
+}

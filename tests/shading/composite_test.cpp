@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "ig_core/shading/shade.h"
+#include "tests/ig_core/randomness.h"
 #include "tests/ig_core/simd_targets.h"
 
 using namespace quadrig;
@@ -70,7 +73,7 @@ TEST_CASE("a pixel covered in part shows what lies behind for the rest") {
         const RowSpan sky = span_of({{0, 8}, {0, 8}, {0, 8}, {0, 8}});
         const auto red_share = [&](const RowSpan& span, int lines) {
             const std::vector<PartialLayer> layers{{0, 0, &span}, {1, 99, &sky}};
-            composite_partial(buffer, layers, 5, lines, row);
+            composite_partial(buffer, layers, 5, 6, lines, row);
             CHECK(row.red[5] + row.blue[5] == Approx(1).epsilon(1e-6));
             return row.red[5];
         };
@@ -92,7 +95,7 @@ TEST_CASE("surfaces of one object that meet within a pixel leave nothing of the 
         const RowSpan left = span_of({{0, 2.375}, {0, 2.5}}), right = span_of({{2.375, 8}, {2.5, 8}}),
                       sky = span_of({{0, 8}, {0, 8}});
         const std::vector<PartialLayer> layers{{0, 7, &left}, {1, 7, &right}, {2, 99, &sky}};
-        composite_partial(buffer, layers, 2, 2, row);
+        composite_partial(buffer, layers, 2, 3, 2, row);
         CHECK(row.red[2] == Approx(0.4375));
         CHECK(row.green[2] == Approx(0.5625));
         CHECK(row.blue[2] == Approx(0).margin(1e-6));
@@ -106,9 +109,76 @@ TEST_CASE("a translucent edge lets its own share through and no more") {
         row.resize(8 + kShadePadding);
         const RowSpan front = span_of({{3.5, 8}, {3.5, 8}}), all = span_of({{0, 8}, {0, 8}});
         const std::vector<PartialLayer> layers{{0, 1, &front}, {1, 2, &all}, {2, 99, &all}};
-        composite_partial(buffer, layers, 3, 2, row);
+        composite_partial(buffer, layers, 3, 4, 2, row);
         CHECK(row.red[3] == Approx(0.25));
         CHECK(row.green[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
         CHECK(row.blue[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
+    });
+}
+
+namespace {
+
+/// Red that a column shows of layers whose samples all stand at that column: cell by cell, in double.
+double red_by_cells(const ShadeBuffer& buffer, const std::vector<PartialLayer>& layers, int column, int first,
+                    int lines) {
+    double red = 0;
+    for (int cell = 0; cell < lines * kCellsPerLine; ++cell) {
+        const auto line = static_cast<std::size_t>(cell / kCellsPerLine);
+        const double left = column + (cell % kCellsPerLine) / double{kCellsPerLine}, right = left + 1.0 / kCellsPerLine;
+        double through = 1, at_group = 1;
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            if (i > 0 && layers[i].group != layers[i - 1].group) at_group = through;
+            const double from = std::max(layers[i].span->from[line], left),
+                         to = std::min(layers[i].span->to[line], right);
+            const std::size_t sample = layers[i].sample + static_cast<std::size_t>(column - first);
+            const double weight = std::max(0.0, to - from) * kCellsPerLine * at_group * double{buffer.opacity[sample]};
+            through = std::max(0.0, through - weight);
+            red += weight * double{buffer.red[sample]};
+        }
+    }
+    return red / (lines * kCellsPerLine);
+}
+
+}  // namespace
+
+TEST_CASE("every pixel of a run is the sum of its cells, for any number of sub-scan lines and layers") {
+    CAPTURE(seed());
+    on_every_target([] {
+        for (int trial = 0; trial < trials(300); ++trial) {
+            CAPTURE(trial);
+            Randomness random(trial);
+            const int first = random.below(4), columns = 1 + random.below(4),
+                      lines = 1 + random.below(kMaxSubScanLines);
+            const int count = 1 + random.below(6);
+            std::vector<Sample> samples;
+            std::vector<RowSpan> spans;
+            std::vector<std::uint32_t> groups;
+            for (int i = 0; i < count; ++i) {
+                for (int c = 0; c < columns; ++c)
+                    samples.push_back({static_cast<float>(random.between(0, 1)), 0, 0,
+                                       random.chance(0.5) ? 1.0F : static_cast<float>(random.between(0, 1))});
+                // Lines beyond the row's hold whatever was there before.
+                std::vector<std::pair<double, double>> ends(kMaxSubScanLines, {std::nan(""), std::nan("")});
+                const bool beside_last = i > 0 && random.chance(0.3);
+                for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line) {
+                    const double from = beside_last ? spans.back().to[line] : random.between(-1, 8);
+                    ends[line] = {from, from + random.between(0, 6)};
+                }
+                spans.push_back(span_of(ends));
+                groups.push_back(beside_last ? groups.back() : static_cast<std::uint32_t>(i));
+            }
+            std::vector<PartialLayer> layers;
+            for (std::size_t i = 0; i < spans.size(); ++i)
+                layers.push_back(
+                    {static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(columns), groups[i], &spans[i]});
+            const ShadeBuffer buffer = buffer_of(samples);
+            ShadeBuffer row;
+            row.resize(8 + kShadePadding);
+            composite_partial(buffer, layers, first, first + columns, lines, row);
+            constexpr double kDark = 1.0 / 4096;  // what is left when the layers behind are given up
+            for (int column = first; column < first + columns; ++column)
+                CHECK(row.red[static_cast<std::size_t>(column)] ==
+                      Approx(red_by_cells(buffer, layers, column, first, lines)).margin(kDark));
+        }
     });
 }

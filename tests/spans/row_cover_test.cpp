@@ -14,6 +14,8 @@ TEST_CASE("what a row's cover hides lies behind it in every column") {
     for (int trial = 0; trial < trials(300); ++trial) {
         Randomness random(trial);
         const int width = 1 + random.below(200);
+        PixelRow row;  // whose columns are as wide as the image plane's unit
+        row.columns = width;
         RowCover cover;
         cover.clear(width);
         std::vector<double> nearest(static_cast<std::size_t>(width), 0.0);  // 1/k of the farthest that is seen
@@ -26,7 +28,7 @@ TEST_CASE("what a row's cover hides lies behind it in every column") {
             for (int column = 0; column < width; ++column)
                 if (column + 1 > asked_from && column < asked_to)
                     exact = exact && nearest[static_cast<std::size_t>(column)] > u;
-            const bool answer = cover.hides(asked_from, asked_to, u);
+            const bool answer = cover.hides(columns_touched(row, asked_from, asked_to), u);
             if (answer) CHECK(exact);
             hidden += answer && asked_to > 0.0 && asked_from < width;
             seen_for_nothing += exact && !answer;

@@ -147,11 +147,11 @@ class CrossingSearch {
     [[nodiscard]] static double expected_crossing(const End& left, const End& right) {
         const double gap_l = left.a.u - left.b.u, gap_r = right.a.u - right.b.u;
         const End& from = std::abs(gap_l) < std::abs(gap_r) ? left : right;
-        const double at = from.column - (from.a.u - from.b.u) / (from.a.slope - from.b.slope);
-        const double nearest = std::min(0.75 * kCrossingWidth, 0.5 * (right.column - left.column));
-        const double chord = left.column + (right.column - left.column) * (gap_l / (gap_l - gap_r));
-        const double inside = at > left.column && at < right.column ? at : chord;
-        return std::clamp(inside, left.column + nearest, right.column - nearest);
+        const double half = 0.5 * (right.column - left.column), nearest = std::min(0.75 * kCrossingWidth, half);
+        double at = from.column - (from.a.u - from.b.u) / (from.a.slope - from.b.slope);
+        if (!(at > left.column && at < right.column)) at = left.column + 2.0 * half * (gap_l / (gap_l - gap_r));
+        if (!(at > left.column && at < right.column)) at = left.column + half;
+        return std::clamp(at, left.column + nearest, right.column - nearest);
     }
 
     const Surface &sa_, &sb_;
@@ -234,7 +234,7 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
     const std::size_t place_a = depths.place_of(a), place_b = depths.place_of(b);
     std::array<CrossingsOnLine, kMaxSubScanLines> crossings;
     bool front = false, behind = false;
-    const CrossingsOnLine* first = nullptr;
+    const CrossingsOnLine* model = nullptr;
     for (std::size_t line = 0; line < lines; ++line) {
         auto& [from, to, apart] = overlaps[line];
         if (!apart && row.point_samples) {
@@ -253,29 +253,33 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
         else
             search.search_linear(a, b, line, from, to);
         if (a.splits >= kMaxSplits) on_line.count = 0;
-        if (first == nullptr) first = &on_line;
+        if (model == nullptr || model->count == 0) model = &on_line;
         front = front || on_line.starts_in_front || on_line.count > 0;
         behind = behind || !on_line.starts_in_front || on_line.count > 0;
     }
     if (!behind) return Priority::front;
     if (!front || a.splits >= kMaxSplits) return Priority::behind;
 
+    // Lines without a crossing are cut in step with those that have one: a piece of a few lines only covers no pixel
+    // whole, and meets more of its kind.
     for (RowSpan& piece : pieces) piece.splits = 0;
     for (std::size_t line = 0; line < lines; ++line) {
-        if (overlaps[line].apart) {
-            if (a.from[line] < a.to[line])
-                put(pieces[first->starts_in_front ? 0 : 1], a, line, a.from[line], a.to[line]);
-            continue;
+        CrossingsOnLine cuts = overlaps[line].apart ? *model : crossings[line];
+        if (cuts.count == 0 && model->count == 1) {
+            // What lies over or under `b` stays in one piece.
+            const bool first_piece = cuts.starts_in_front == model->starts_in_front;
+            cuts.at[cuts.count++] = first_piece ? std::max(model->at[0], std::min(a.to[line], b.to[line]))
+                                                : std::min(model->at[0], std::max(a.from[line], b.from[line]));
+            cuts.starts_in_front = model->starts_in_front;
         }
-        const CrossingsOnLine& on_line = crossings[line];
-        std::size_t piece = on_line.starts_in_front ? 0 : 1;
+        std::size_t piece = cuts.starts_in_front ? 0 : 1;
         double start = a.from[line];
-        for (std::size_t i = 0; i <= on_line.count; ++i) {
-            const double stop = i < on_line.count ? on_line.at[i] : a.to[line];
-            put(pieces[std::min(piece, kMaxPieces - 1)], a, line, start, stop);
+        for (std::size_t i = 0; i < cuts.count; ++i) {
+            const double stop = std::clamp(cuts.at[i], start, std::max(start, a.to[line]));
+            put(pieces[std::min(piece++, kMaxPieces - 1)], a, line, start, stop);
             start = stop;
-            ++piece;
         }
+        put(pieces[std::min(piece, kMaxPieces - 1)], a, line, start, a.to[line]);
     }
     return Priority::crossing;
 }

@@ -218,9 +218,6 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
         return light_in_front_of_plane(*sa.light, sb.plane) ? Priority::front : Priority::behind;
     if (sb.light != nullptr && is_plane(sa))
         return light_in_front_of_plane(*sb.light, sa.plane) ? Priority::behind : Priority::front;
-    if (const auto order = order_by_bounds({sa.near_u, sa.far_u}, {sb.near_u, sb.far_u})) return *order;
-    // Surfaces of one object lie side by side.
-    if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
 
     const auto lines = static_cast<std::size_t>(row.sub_lines);
     std::array<Overlap, kMaxSubScanLines> overlaps;

@@ -19,15 +19,17 @@ enum class Priority { front, behind, crossing };
 /// Depths that differ by less than this share are the same: faces in one plane are in file order.
 inline constexpr double kSameDepth = 1e-13;
 
-/// Bounds of 1/k.
+/// What most orders can be told by: bounds of 1/k, and the object.
 struct DepthBounds {
     double near_u, far_u;
+    const Outline* outline;
 };
 
-/// Order of one surface relative to another where their bounds alone tell.
+/// Order of one surface relative to another where that tells.
 inline std::optional<Priority> order_by_bounds(const DepthBounds& a, const DepthBounds& b) {
     if (a.far_u > (1.0 + kSameDepth) * b.near_u) return Priority::front;
     if (b.far_u > (1.0 + kSameDepth) * a.near_u) return Priority::behind;
+    if (a.outline != nullptr && a.outline == b.outline) return Priority::front;  // they lie side by side
     return std::nullopt;
 }
 

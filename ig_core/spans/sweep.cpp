@@ -20,9 +20,9 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
 
 RowSweep::Active RowSweep::active(std::uint32_t index) const {
     const RowSpan& span = spans[index];
-    DepthBounds depth{span.surface.near_u, span.surface.far_u};
+    DepthBounds depth{span.surface.near_u, span.surface.far_u, span.surface.outline};
     // Lights have rules of their own.
-    if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0};
+    if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0, nullptr};
     return {index, span.surface.opaque, span.inner_from, span.inner_to, span.outer_to, depth};
 }
 

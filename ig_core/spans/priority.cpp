@@ -12,24 +12,54 @@ namespace {
 constexpr double kCrossingWidth = 1.0 / 16.0;
 /// An overlap narrower than this (columns) is rounding where two spans abut: it has no order.
 constexpr double kLeastOverlap = 1.0 / 512.0;
-/// Depths that differ by less than this share are the same: faces in one plane are in file order.
-constexpr double kSameDepth = 1e-13;
 /// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
 constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
 constexpr int kMaxSplits = 8;
+/// After so many guesses at a crossing's place an interval is halved.
+constexpr int kMostGuesses = 3;
 
-/// Finds where one depth passes another along a scan line.
-class Crossings {
+/// Where one depth passes another along a scan line.
+struct CrossingsOnLine {
+    CrossingsOnLine() {}  // NOLINT(modernize-use-equals-default): most are never looked at
+    bool starts_in_front;
+    std::size_t count;
+    std::array<double, kMaxCrossings> at;
+};
+
+class CrossingSearch {
   public:
-    Crossings(const RowSpan& a, const RowSpan& b, const PixelRow& row, double z)
-        : a_(a.surface, row, z),
-          b_(b.surface, row, z),
-          points_(row.point_samples),
-          a_wins_ties_(a.surface.priority < b.surface.priority) {}
+    CrossingSearch(const RowSpan& a, const RowSpan& b, const DepthOnLine& depth_a, const DepthOnLine& depth_b,
+                   bool points, CrossingsOnLine& found)
+        : sa_(a.surface),
+          sb_(b.surface),
+          a_(depth_a),
+          b_(depth_b),
+          points_(points),
+          a_wins_ties_(a.surface.priority < b.surface.priority),
+          found_(found) {
+        found_.count = 0;
+    }
 
     void search(double from, double to) {
-        const End left = end(from), right = end(to);
-        starts_in_front = left.in_front;
+        // Most pairs lie clear of one another: the one that spans more depth passes the other's bounds by.
+        const bool a_is_wide = sa_.near_u - sa_.far_u >= sb_.near_u - sb_.far_u;
+        const DepthOnLine &wide = a_is_wide ? a_ : b_, &narrow = a_is_wide ? b_ : a_;
+        const Surface& other = a_is_wide ? sb_ : sa_;
+        const DepthOnLine::Sample wide_l = wide.at(from), wide_r = wide.at(to);
+        if (std::min(wide_l.u, wide_r.u) > other.near_u * (1.0 + kSameDepth)) {
+            found_.starts_in_front = a_is_wide;
+            return;
+        }
+        const double width = to - from;
+        const double most = std::min(most_along(wide_l, width), most_along(wide_r, -width));
+        if (most * (1.0 + kSameDepth) < other.far_u) {
+            found_.starts_in_front = !a_is_wide;
+            return;
+        }
+        const DepthOnLine::Sample narrow_l = narrow.at(from), narrow_r = narrow.at(to);
+        const End left = a_is_wide ? end(from, wide_l, narrow_l) : end(from, narrow_l, wide_l);
+        const End right = a_is_wide ? end(to, wide_r, narrow_r) : end(to, narrow_r, wide_r);
+        found_.starts_in_front = left.in_front;
         between(left, right);
     }
 
@@ -39,15 +69,18 @@ class Crossings {
         const double gap_l = distance(b_, b, line, from) - distance(a_, a, line, from);
         const double gap_r = distance(b_, b, line, to) - distance(a_, a, line, to);
         const auto in_front = [&](double gap) { return gap > 0.0 || (gap == 0.0 && a_wins_ties_); };
-        starts_in_front = in_front(gap_l);
-        if (starts_in_front != in_front(gap_r)) at[count++] = from + (to - from) * (gap_l / (gap_l - gap_r));
+        found_.starts_in_front = in_front(gap_l);
+        if (found_.starts_in_front != in_front(gap_r))
+            found_.at[found_.count++] = from + (to - from) * (gap_l / (gap_l - gap_r));
     }
 
-    bool starts_in_front = false;
-    std::array<double, kMaxCrossings> at{};
-    std::size_t count = 0;
-
   private:
+    /// The larger end of the tangent, above which no concave depth rises; infinite if that says nothing.
+    [[nodiscard]] static double most_along(const DepthOnLine::Sample& tangent, double width) {
+        const double end = tangent.u + tangent.slope * width;
+        return std::isfinite(end) ? std::max(tangent.u, end) : std::numeric_limits<double>::infinity();
+    }
+
     [[nodiscard]] static double distance(const DepthOnLine& depth, const RowSpan& span, std::size_t line,
                                          double column) {
         if (span.surface.outline == nullptr) return 1.0 / depth.value(column);
@@ -61,8 +94,8 @@ class Crossings {
         bool in_front, same;
     };
 
-    [[nodiscard]] End end(double column) const {
-        const DepthOnLine::Sample a = a_.at(column), b = b_.at(column);
+    [[nodiscard]] End end(double column) const { return end(column, a_.at(column), b_.at(column)); }
+    [[nodiscard]] End end(double column, const DepthOnLine::Sample& a, const DepthOnLine::Sample& b) const {
         const double rounding = kSameDepth * std::abs(b.u);
         const bool same = std::abs(a.u - b.u) <= rounding;
         return {column, a, b, same ? a_wins_ties_ : a.u > b.u, same};
@@ -88,49 +121,55 @@ class Crossings {
         return t >= 0.0 && t <= width && gap_l + slope_l * t > 0.0;
     }
 
-    void between(const End& left, const End& right) {
-        if (left.in_front == right.in_front && (left.column >= right.column || proven(left, right))) return;
+    /// `guesses`: how often in a row the interval has been split where the surfaces were expected to cross.
+    void between(const End& left, const End& right, int guesses = 0) {
+        const bool same_order = left.in_front == right.in_front;
+        if (same_order && (left.column >= right.column || proven(left, right))) return;
         const double width = right.column - left.column;
         if (width <= (points_ ? 1.0 : kCrossingWidth)) {
-            if (left.in_front == right.in_front || count == kMaxCrossings) return;
+            if (same_order || found_.count == kMaxCrossings) return;
             double share = 0.5;
             if (!points_) {
                 const double gap_l = std::abs(left.a.u - left.b.u), gap_r = std::abs(right.a.u - right.b.u);
                 if (gap_l + gap_r > 0.0) share = gap_l / (gap_l + gap_r);
             }
-            at[count++] = left.column + share * width;
+            found_.at[found_.count++] = left.column + share * width;
             return;
         }
+        const bool guess = !same_order && !points_ && guesses < kMostGuesses;
         const double half = points_ ? std::floor(0.5 * width) : 0.5 * width;
-        const End middle = end(left.column + half);
-        between(left, middle);
-        between(middle, right);
+        const End middle = end(guess ? expected_crossing(left, right) : left.column + half);
+        between(left, middle, guess ? guesses + 1 : 0);
+        between(middle, right, guess ? guesses + 1 : 0);
     }
 
-    DepthOnLine a_, b_;
+    /// By the tangents at the end where the surfaces are closer, and so that a crossing close to an end is shut in.
+    [[nodiscard]] static double expected_crossing(const End& left, const End& right) {
+        const double gap_l = left.a.u - left.b.u, gap_r = right.a.u - right.b.u;
+        const End& from = std::abs(gap_l) < std::abs(gap_r) ? left : right;
+        const double half = 0.5 * (right.column - left.column), nearest = std::min(0.75 * kCrossingWidth, half);
+        double at = from.column - (from.a.u - from.b.u) / (from.a.slope - from.b.slope);
+        if (!(at > left.column && at < right.column)) at = left.column + 2.0 * half * (gap_l / (gap_l - gap_r));
+        if (!(at > left.column && at < right.column)) at = left.column + half;
+        return std::clamp(at, left.column + nearest, right.column - nearest);
+    }
+
+    const Surface &sa_, &sb_;
+    const DepthOnLine &a_, &b_;
     bool points_, a_wins_ties_;
+    CrossingsOnLine& found_;
 };
 
-/// Most pairs lie clear of one another: on the first and the last sub-scan line the surface that spans more depth
-/// passes the other by, whose bounds of 1/k are known. (What the lines between could add is less than a sub-scan line
-/// high.)
-std::optional<Priority> proven_on_outer_lines(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
-    const auto spread = [](const Surface& s) { return s.near_u - s.far_u; };
-    const bool a_is_wide = spread(a.surface) >= spread(b.surface);
-    const Surface &wide = a_is_wide ? a.surface : b.surface, &narrow = a_is_wide ? b.surface : a.surface;
-    const auto lines = static_cast<std::size_t>(row.sub_lines);
-    std::optional<bool> wide_in_front;
-    for (std::size_t line = 0; line < lines; line += std::max<std::size_t>(1, lines - 1)) {
-        const double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
-        if (!(to - from > kLeastOverlap)) continue;
-        const DepthOnLine depth(wide, row, row.z[line]);
-        const bool behind = depth.most(from, to) * (1.0 + kSameDepth) < narrow.far_u;
-        if (!behind && !(depth.least(from, to) > narrow.near_u * (1.0 + kSameDepth))) return std::nullopt;
-        if (wide_in_front && *wide_in_front == behind) return std::nullopt;
-        wide_in_front = !behind;
-    }
-    if (!wide_in_front) return std::nullopt;
-    return *wide_in_front == a_is_wide ? Priority::front : Priority::behind;
+/// Columns in which two spans overlap on a sub-scan line; none if they lie apart there, but for rounding.
+struct Overlap {
+    double from, to;
+    bool apart;
+};
+
+Overlap overlap_on_line(const RowSpan& a, const RowSpan& b, std::size_t line, bool point_samples) {
+    Overlap out{std::max(a.from[line], b.from[line]), std::min(a.to[line], b.to[line]), false};
+    out.apart = !(out.to - out.from > (point_samples ? 0.0 : kLeastOverlap));
+    return out;
 }
 
 /// Planes without end pass in front of part of a light's disc wherever it stands close to them: they are compared where
@@ -152,63 +191,114 @@ void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, do
 
 }  // namespace
 
-Priority priority_of(const RowSpan& a, const RowSpan& b, const PixelRow& row, CrossingPieces& pieces) {
+void RowDepths::start(const PixelRow& row) {
+    row_ = &row;
+    depths_.clear();
+}
+
+std::size_t RowDepths::place_of(RowSpan& span) {
+    if (span.depths < 0) {
+        span.depths = static_cast<int>(depths_.size());
+        for (std::size_t line = 0; line < static_cast<std::size_t>(row_->sub_lines); ++line)
+            depths_.emplace_back(span.surface, *row_, row_->z[line]);
+    }
+    return static_cast<std::size_t>(span.depths);
+}
+
+bool overlap(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
+    for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line)
+        if (!overlap_on_line(a, b, line, row.point_samples).apart) return true;
+    return false;
+}
+
+Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& depths, CrossingPieces& pieces) {
     const Surface &sa = a.surface, &sb = b.surface;
     const auto is_plane = [](const Surface& s) { return s.outline == nullptr && s.light == nullptr; };
     if (sa.light != nullptr && is_plane(sb))
         return light_in_front_of_plane(*sa.light, sb.plane) ? Priority::front : Priority::behind;
     if (sb.light != nullptr && is_plane(sa))
         return light_in_front_of_plane(*sb.light, sa.plane) ? Priority::behind : Priority::front;
-    if (sa.far_u > (1.0 + kSameDepth) * sb.near_u) return Priority::front;
-    if (sb.far_u > (1.0 + kSameDepth) * sa.near_u) return Priority::behind;
-    // Surfaces of one object lie side by side.
-    if (sa.outline != nullptr && sa.outline == sb.outline) return Priority::front;
 
-    if (row.distance == DistanceRule::exact)
-        if (const auto proven = proven_on_outer_lines(a, b, row)) return *proven;
-
-    for (RowSpan& piece : pieces) piece.splits = 0;
-    bool front = false, behind = false;
-    std::optional<bool> first_in_front;
     const auto lines = static_cast<std::size_t>(row.sub_lines);
-    std::array<bool, kMaxSubScanLines> apart{};
+    std::array<Overlap, kMaxSubScanLines> overlaps;
+    bool all_apart = true;
     for (std::size_t line = 0; line < lines; ++line) {
-        double from = std::max(a.from[line], b.from[line]), to = std::min(a.to[line], b.to[line]);
-        apart[line] = !(to - from > (row.point_samples ? 0.0 : kLeastOverlap));
-        if (apart[line]) continue;
-        if (row.point_samples) {
+        overlaps[line] = overlap_on_line(a, b, line, row.point_samples);
+        all_apart = all_apart && overlaps[line].apart;
+    }
+    if (all_apart) return sa.near_u + sa.far_u > sb.near_u + sb.far_u ? Priority::front : Priority::behind;
+
+    const std::size_t place_a = depths.place_of(a), place_b = depths.place_of(b);
+    std::array<CrossingsOnLine, kMaxSubScanLines> crossings;
+    bool front = false, behind = false;
+    const CrossingsOnLine* model = nullptr;
+    for (std::size_t line = 0; line < lines; ++line) {
+        auto& [from, to, apart] = overlaps[line];
+        if (!apart && row.point_samples) {
             from = std::ceil(from - 0.5) + 0.5, to = std::ceil(to - 0.5) - 0.5;
-            apart[line] = !(from <= to);
-            if (apart[line]) continue;
-        } else {
+            apart = !(from <= to);
+        }
+        if (apart) continue;
+        if (!row.point_samples) {
             const double inset = std::min(2.0 * kCrossingWidth, 0.25 * (to - from));
             from += inset, to -= inset;
         }
-        Crossings crossings(a, b, row, row.z[line]);
+        CrossingsOnLine& on_line = crossings[line];
+        CrossingSearch search(a, b, depths.at(place_a, line), depths.at(place_b, line), row.point_samples, on_line);
         if (row.distance == DistanceRule::exact)
-            crossings.search(from, to);
+            search.search(from, to);
         else
-            crossings.search_linear(a, b, line, from, to);
-        if (a.splits >= kMaxSplits) crossings.count = 0;
-        bool in_front = crossings.starts_in_front;
-        if (!first_in_front) first_in_front = in_front;
-        std::size_t piece = in_front ? 0 : 1;
-        double start = a.from[line];
-        for (std::size_t i = 0; i <= crossings.count; ++i) {
-            (in_front ? front : behind) = true;
-            const double stop = i < crossings.count ? crossings.at[i] : a.to[line];
-            put(pieces[std::min(piece, kMaxPieces - 1)], a, line, start, stop);
-            start = stop;
-            in_front = !in_front;
-            ++piece;
-        }
+            search.search_linear(a, b, line, from, to);
+        if (a.splits >= kMaxSplits) on_line.count = 0;
+        if (model == nullptr || model->count == 0) model = &on_line;
+        front = front || on_line.starts_in_front || on_line.count > 0;
+        behind = behind || !on_line.starts_in_front || on_line.count > 0;
     }
     if (!behind) return Priority::front;
     if (!front || a.splits >= kMaxSplits) return Priority::behind;
-    for (std::size_t line = 0; line < lines; ++line)
-        if (apart[line] && a.from[line] < a.to[line])
-            put(pieces[*first_in_front ? 0 : 1], a, line, a.from[line], a.to[line]);
+
+    // Lines without a crossing are cut in step with those that have one: a piece of a few lines only covers no pixel
+    // whole, and meets more of its kind.
+    for (RowSpan& piece : pieces) piece.splits = 0;
+    for (std::size_t line = 0; line < lines; ++line) {
+        CrossingsOnLine cuts = overlaps[line].apart ? *model : crossings[line];
+        if (cuts.count == 0 && model->count == 1) {
+            // What lies over or under `b` stays in one piece.
+            const bool first_piece = cuts.starts_in_front == model->starts_in_front;
+            cuts.at[cuts.count++] = first_piece ? std::max(model->at[0], std::min(a.to[line], b.to[line]))
+                                                : std::min(model->at[0], std::max(a.from[line], b.from[line]));
+            cuts.starts_in_front = model->starts_in_front;
+        }
+        std::size_t piece = cuts.starts_in_front ? 0 : 1;
+        double start = a.from[line];
+        for (std::size_t i = 0; i < cuts.count; ++i) {
+            const double stop = std::clamp(cuts.at[i], start, std::max(start, a.to[line]));
+            put(pieces[std::min(piece++, kMaxPieces - 1)], a, line, start, stop);
+            start = stop;
+        }
+        put(pieces[std::min(piece, kMaxPieces - 1)], a, line, start, a.to[line]);
+    }
     return Priority::crossing;
+}
+
+bool part_between(const RowSpan& a, const RowSpan& x, const RowSpan& y, const PixelRow& row, CrossingPieces& pieces) {
+    if (a.splits >= kMaxSplits) return false;
+    for (RowSpan& piece : pieces) piece.splits = 0;
+    for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line) {
+        const double from = a.from[line], to = a.to[line];
+        if (!(from < to)) continue;
+        const Overlap of_x = overlap_on_line(a, x, line, row.point_samples);
+        const Overlap of_y = overlap_on_line(a, y, line, row.point_samples);
+        if (of_x.apart || of_y.apart) {
+            put(pieces[of_y.apart ? 0 : 1], a, line, from, to);
+            continue;
+        }
+        const bool x_first = of_x.from < of_y.from;
+        const double middle = x_first ? 0.5 * (of_x.to + of_y.from) : 0.5 * (of_y.to + of_x.from);
+        put(pieces[x_first ? 0 : 1], a, line, from, middle);
+        put(pieces[x_first ? 1 : 0], a, line, middle, to);
+    }
+    return true;
 }
 
 }  // namespace quadrig

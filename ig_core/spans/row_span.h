@@ -50,6 +50,7 @@ struct RowSpan {
     int outer_from = 0, outer_to = 0;               ///< columns touched
     int inner_from = 0, inner_to = 0;               ///< columns covered whole; empty if from >= to
     int splits = 0;                                 ///< how often the sweep has cut it where surfaces cross
+    int depths = -1;                                ///< its place in RowDepths; -1 before it is asked for
 };
 
 /// One pixel row and its sub-scan lines.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "ig_core/spans/row_spans.h"
@@ -19,31 +20,73 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
 
 }  // namespace
 
+RowSweep::Active RowSweep::active(std::uint32_t index) const {
+    const RowSpan& span = spans[index];
+    DepthBounds depth{span.surface.near_u, span.surface.far_u, span.surface.outline};
+    // Lights have rules of their own.
+    if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0, nullptr};
+    return {index, span.surface.opaque, span.inner_from, span.inner_to, span.outer_to, depth};
+}
+
+std::optional<Priority> RowSweep::order_of_whole(std::uint32_t index, std::uint32_t other) const {
+    if (index < first_piece_) return std::nullopt;
+    const Piece& piece = pieces_[index - first_piece_];
+    const auto first = orders_.begin() + piece.first_order, last = orders_.begin() + piece.last_order;
+    const auto found = std::find_if(first, last, [&](const Order& order) { return order.other == other; });
+    if (found == last && piece.at_cut.other != other) return std::nullopt;
+    return found == last ? piece.at_cut.priority : found->priority;
+}
+
+void RowSweep::cut(std::uint32_t first_order, std::uint32_t other, const PixelRow& row) {
+    const auto last_order = static_cast<std::uint32_t>(orders_.size());
+    for (std::size_t i = 0; i < crossing_pieces_.size(); ++i) {
+        RowSpan& piece = crossing_pieces_[i];
+        if (piece.splits == 0 || !fit_columns(row, piece)) continue;
+        const Start start(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
+        spans.push_back(piece);
+        pieces_.push_back({first_order, last_order, {other, i % 2 == 0 ? Priority::front : Priority::behind}});
+        starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
+    }
+}
+
 void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
+    const Active own = active(index);
+    const auto covered_by = [&](const Active& other) {
+        return other.outer_to >= own.outer_to && covers(spans[other.span], spans[index], row);
+    };
+    const auto meets = [&](const Active& other) { return overlap(spans[index], spans[other.span], row); };
+    const auto first_order = static_cast<std::uint32_t>(orders_.size());
     std::size_t position = active_.size();
     for (std::size_t i = 0; i < active_.size(); ++i) {
-        const RowSpan &span = spans[index], &other = spans[active_[i].span];
-        const Priority priority = priority_of(span, other, row, pieces_);
-        if (priority == Priority::crossing) {
-            for (RowSpan& piece : pieces_) {
-                if (piece.splits == 0 || !fit_columns(row, piece)) continue;
-                const Start start(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
-                spans.push_back(piece);
-                starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
-            }
-            return;
+        const Active& other = active_[i];
+        auto priority = order_by_bounds(own.depth, other.depth);
+        if (!priority) {
+            priority = order_of_whole(index, other.span);
+            if (!priority) priority = priority_of(spans[index], spans[other.span], row, depths_, crossing_pieces_);
+            if (*priority == Priority::crossing) return cut(first_order, other.span, row);
+            orders_.push_back({other.span, *priority});
         }
-        if (priority == Priority::behind) {
-            if (other.surface.opaque && covers(other, span, row)) return;
+        if (*priority == Priority::behind) {
+            if (position != active_.size()) {
+                if (!meets(other)) continue;
+                const auto last = active_.begin() + static_cast<std::ptrdiff_t>(i);
+                const auto front = std::find_if(active_.begin() + static_cast<std::ptrdiff_t>(position), last, meets);
+                if (front != last &&
+                    part_between(spans[index], spans[front->span], spans[other.span], row, crossing_pieces_))
+                    return cut(first_order, std::numeric_limits<std::uint32_t>::max(), row);
+            }
             position = active_.size();
+            if (other.opaque && covered_by(other)) {
+                orders_.resize(first_order);
+                return;
+            }
         } else {
             if (position == active_.size()) position = i;
-            if (covers(other, span, row)) break;  // in front of it, so in front of all behind it
+            if (covered_by(other)) break;  // in front of it, so in front of all behind it
         }
     }
-    const RowSpan& span = spans[index];
-    active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(position),
-                   {index, span.surface.opaque, span.inner_from, span.inner_to, span.outer_to});
+    orders_.resize(first_order);
+    active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(position), own);
 }
 
 void RowSweep::emit(int from, int to) {
@@ -104,7 +147,14 @@ void RowSweep::sweep(const PixelRow& row) {
     layers.clear();
     active_.clear();
     starts_.clear();
-    for (std::uint32_t i = 0; i < spans.size(); ++i) starts_.emplace_back(spans[i].outer_from, i);
+    orders_.clear();
+    pieces_.clear();
+    first_piece_ = static_cast<std::uint32_t>(spans.size());
+    depths_.start(row);
+    for (std::uint32_t i = 0; i < spans.size(); ++i) {
+        spans[i].depths = -1;
+        starts_.emplace_back(spans[i].outer_from, i);
+    }
     sort_starts();
     int column = 0;
     while (column < row.columns) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "ig_core/spans/priority.h"
@@ -45,10 +46,29 @@ class RowSweep {
         std::uint32_t span;
         bool opaque;
         int inner_from, inner_to, outer_to;
+        DepthBounds depth;
         [[nodiscard]] bool covers(int column) const { return inner_from <= column && column < inner_to; }
     };
+    [[nodiscard]] Active active(std::uint32_t index) const;
     std::vector<Active> active_;  // front to back
-    CrossingPieces pieces_;
+
+    /// Order of a span relative to another, found while it was put among the active ones.
+    struct Order {
+        std::uint32_t other;
+        Priority priority;
+    };
+    /// What was known of a span when it was cut, each of its pieces keeps: a part has the order of the whole.
+    struct Piece {
+        std::uint32_t first_order, last_order;  // in orders_
+        Order at_cut;                           // relative to the span it was cut at
+    };
+    [[nodiscard]] std::optional<Priority> order_of_whole(std::uint32_t index, std::uint32_t other) const;
+    void cut(std::uint32_t first_order, std::uint32_t other, const PixelRow& row);
+    std::vector<Order> orders_;
+    std::vector<Piece> pieces_;  // from spans[first_piece_] on
+    std::uint32_t first_piece_ = 0;
+    CrossingPieces crossing_pieces_;
+    RowDepths depths_;
 };
 
 }  // namespace quadrig

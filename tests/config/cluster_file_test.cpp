@@ -263,6 +263,12 @@ TEST_CASE("the scenes for measuring hold what they say, in few lines, and load f
     CHECK(stones.translucent == 0);
     CHECK(stones.fewest_planes == 0);
     CHECK(stones.most_planes == 6);
+    const Scene wood = bench_scene("wood");
+    const Kind crowns = kind_of(wood, "tree");
+    CHECK(kind_of(wood, "hill").textured == 20);
+    CHECK(crowns.objects == 6000);
+    CHECK(crowns.translucent == 6000);
+    CHECK(crowns.textured == 6000);
 
     auto fastest = std::chrono::duration<double>::max();
     for (int i = 0; i < 5; ++i) {

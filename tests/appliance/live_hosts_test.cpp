@@ -250,7 +250,7 @@ TEST_CASE("In asynchronous operation a host at its own rate gets Start Of Frame 
                             "--report",
                             out / "r.json",
                             "--size",
-                            too_slow ? "800x600" : "48x32",
+                            too_slow ? "1920x1080" : "48x32",
                             "--rate",
                             too_slow ? "1000" : "100"};
         Program program(arguments);

@@ -47,8 +47,10 @@ struct Wood {
             row.z[static_cast<std::size_t>(line)] =
                 middles[static_cast<std::size_t>(r)] + (0.5 * (row.sub_lines - 1) - line) * height;
         sweep.spans.clear();
-        for (std::uint32_t i = 0; i < outlines.size(); ++i)
-            add_object_spans(outlines[i], i, opaque[i], row, sweep.spans);
+        for (std::uint32_t i = 0; i < outlines.size(); ++i) {
+            BandPlace band = kHighestBand;
+            add_object_spans(outlines[i], i, opaque[i], row, band, sweep.spans);
+        }
         add_plane_spans({}, {}, row, sweep.spans);
         sweep.sweep(row);
     }

@@ -140,13 +140,16 @@ void RowSweep::sweep(const PixelRow& row) {
             insert(index, row);
         }
         int next = starts_.empty() ? row.columns : std::min(starts_.back().column(), row.columns);
+        int first_end = row.columns;
         for (const Active& span : active_) {
             if (span.inner_from > column) next = std::min(next, span.inner_from);
             if (span.inner_to > column) next = std::min(next, span.inner_to);
-            next = std::min(next, span.outer_to);
+            first_end = std::min(first_end, span.outer_to);
         }
+        next = std::min(next, first_end);
         emit(column, next);
         column = next;
+        if (first_end > column) continue;
         active_.erase(
             std::remove_if(active_.begin(), active_.end(), [&](const Active& span) { return span.outer_to <= column; }),
             active_.end());

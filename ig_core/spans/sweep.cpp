@@ -9,6 +9,8 @@
 namespace quadrig {
 namespace {
 
+constexpr std::uint32_t kNoSpan = std::numeric_limits<std::uint32_t>::max();
+
 /// Whether `cover` covers all of `span` on every sub-scan line.
 bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
@@ -66,12 +68,13 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
         }
         if (*priority == Priority::behind) {
             if (position != active_.size()) {
+                // It lies in front of one that stands farther forward: these two have no order, or not in all columns.
                 if (!meets(other)) continue;
                 const auto last = active_.begin() + static_cast<std::ptrdiff_t>(i);
                 const auto front = std::find_if(active_.begin() + static_cast<std::ptrdiff_t>(position), last, meets);
                 if (front != last &&
                     part_between(spans[index], spans[front->span], spans[other.span], row, crossing_pieces_))
-                    return cut(first_order, std::numeric_limits<std::uint32_t>::max(), row);
+                    return cut(first_order, kNoSpan, row);
             }
             position = active_.size();
             if (other.opaque && covered_by(other)) {

@@ -23,9 +23,10 @@ struct CrossingsOnLine {
     CrossingsOnLine() {}  // NOLINT(modernize-use-equals-default): most are never looked at
     bool starts_in_front;
     std::size_t count;
-    std::array<double, kMaxCrossings> at;
+    std::array<double, kMaxCrossings> at;  // columns
 };
 
+/// Finds them between two columns that both spans cover.
 class CrossingSearch {
   public:
     CrossingSearch(const RowSpan& a, const RowSpan& b, const DepthOnLine& depth_a, const DepthOnLine& depth_b,
@@ -41,7 +42,8 @@ class CrossingSearch {
     }
 
     void search(double from, double to) {
-        // Most pairs lie clear of one another: the one that spans more depth passes the other's bounds by.
+        // Most pairs lie clear of one another: the one that spans more depth passes by the other's bounds. (Those are
+        // of the first and the last sub-scan line; what lines between could add is less than a sub-scan line high.)
         const bool a_is_wide = sa_.near_u - sa_.far_u >= sb_.near_u - sb_.far_u;
         const DepthOnLine &wide = a_is_wide ? a_ : b_, &narrow = a_is_wide ? b_ : a_;
         const Surface& other = a_is_wide ? sb_ : sa_;

@@ -11,6 +11,8 @@
 namespace quadrig {
 namespace {
 
+constexpr std::uint32_t kNoSpan = std::numeric_limits<std::uint32_t>::max();
+
 /// Whether `cover` covers all of `span` on every sub-scan line.
 bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
@@ -68,12 +70,13 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
         }
         if (*priority == Priority::behind) {
             if (position != active_.size()) {
+                // It lies in front of one that stands farther forward: these two have no order, or not in all columns.
                 if (!meets(other)) continue;
                 const auto last = active_.begin() + static_cast<std::ptrdiff_t>(i);
                 const auto front = std::find_if(active_.begin() + static_cast<std::ptrdiff_t>(position), last, meets);
                 if (front != last &&
                     part_between(spans[index], spans[front->span], spans[other.span], row, crossing_pieces_))
-                    return cut(first_order, std::numeric_limits<std::uint32_t>::max(), row);
+                    return cut(first_order, kNoSpan, row);
             }
             position = active_.size();
             if (other.opaque && covered_by(other)) {
@@ -164,13 +167,16 @@ void RowSweep::sweep(const PixelRow& row) {
             insert(index, row);
         }
         int next = starts_.empty() ? row.columns : std::min(starts_.back().column(), row.columns);
+        int first_end = row.columns;
         for (const Active& span : active_) {
             if (span.inner_from > column) next = std::min(next, span.inner_from);
             if (span.inner_to > column) next = std::min(next, span.inner_to);
-            next = std::min(next, span.outer_to);
+            first_end = std::min(first_end, span.outer_to);
         }
+        next = std::min(next, first_end);
         emit(column, next);
         column = next;
+        if (first_end > column) continue;
         active_.erase(
             std::remove_if(active_.begin(), active_.end(), [&](const Active& span) { return span.outer_to <= column; }),
             active_.end());

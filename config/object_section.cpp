@@ -1,6 +1,7 @@
 #include "config/object_section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "config/convexity.h"
@@ -60,11 +61,13 @@ Shape read_shape(const TomlSection& object) {
     return quadric;
 }
 
+constexpr double kShortestNormal = 1e-60;  // its square is a number still
+
 std::vector<BoundingPlane> read_planes(const TomlSection& object) {
     std::vector<BoundingPlane> planes;
     for (const auto& row : object.rows("planes", kCoefficient, 4, kMaxPlanes)) {
-        if (row[0] == 0.0 && row[1] == 0.0 && row[2] == 0.0) {
-            object.refuse("planes", planes.size(), "a normal B1, B2, B3 other than 0", "0, 0, 0");
+        if (std::max({std::abs(row[0]), std::abs(row[1]), std::abs(row[2])}) < kShortestNormal) {
+            object.refuse("planes", planes.size(), "B1, B2 or B3 of at least 1e-60", "a normal next to 0");
         }
         planes.push_back({{row[0], row[1], row[2], row[3]}});
     }

@@ -10,12 +10,12 @@ namespace quadrig::config {
 namespace {
 
 constexpr double kMostWeight = 1e60;  // squares of sums are to be numbers still, and no zeros
-constexpr NumberRule kCoefficient{"a number in 0..1e60", [](double x) { return x >= 0.0 && x <= kMostWeight; }};
+constexpr NumberRule kWeight{"a number in 0..1e60", [](double x) { return x >= 0.0 && x <= kMostWeight; }};
 constexpr NumberRule kScale{"a factor in 1e-6..1e6", [](double x) { return x >= 1e-6 && x <= 1e6; }};
 
 std::vector<TextureTerm> read_terms(const TomlSection& section) {
     constexpr std::size_t kMost = kMaxTextureTerms;
-    const auto coefficients = section.numbers("coefficients", kCoefficient, 1, kMost);
+    const auto coefficients = section.numbers("coefficients", kWeight, 1, kMost);
     const auto frequencies = section.numbers("frequencies", kPositive, 1, kMost);
     const auto phases = section.numbers("phases", kAnyNumber, 1, kMost);
     const auto refuse_other_length = [&](std::string_view name, const std::vector<double>& values) {

@@ -3,9 +3,11 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -54,8 +56,10 @@ void write_png(std::FILE* stream, const std::string& name, const FrameImage& ima
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const bool written = info && encode(png, info, stream, image, compression);
+    // Of a stream that takes no more libpng says only "Write Error"; the system says why.
+    const std::string reason = std::ferror(stream) != 0 ? std::strerror(errno) : complaint.text;
     png_destroy_write_struct(&png, &info);
-    if (!written) throw std::runtime_error(name + ": cannot be written: " + complaint.text);
+    if (!written) throw std::runtime_error(name + ": cannot be written: " + reason);
 }
 
 }  // namespace

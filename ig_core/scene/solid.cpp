@@ -42,8 +42,25 @@ void set_ellipsoid(const Ellipsoid& e, Solid& solid) {
     solid.radius = std::max({e.semi_axes.x, e.semi_axes.y, e.semi_axes.z});
 }
 
+/// Beyond this slope a hill is written about its apex: its centre lies slope^2 radii of curvature above that, so far
+/// that little of a double would be left for the hill.
+constexpr double kSteepest = 30.0;
+
+/// Hill about its apex: x^2 + y^2 - z^2/slope^2 + 2 r z <= 0.
+void set_steep_hill(const Hill& hill, Solid& solid) {
+    const double r = hill.radius_of_curvature, steep = hill.slope * hill.slope;
+    solid.anchor = hill.apex;
+    solid.m = {1, 1, -1 / steep, 0, 0, 0};
+    solid.adjugate = {-1 / steep, -1 / steep, 1, 0, 0, 0};
+    solid.determinant = -1 / steep;
+    solid.w = {0, 0, r};
+    solid.centre_value = r * r * steep;
+    solid.planes.push_back({{0, 0, -1}, r * steep, 0});
+}
+
 /// Hill about its centre, c above the apex: (x^2 + y^2)/a^2 - z^2/c^2 + 1 <= 0, scaled by a^2.
 void set_hill(const Hill& hill, Solid& solid) {
+    if (hill.slope > kSteepest) return set_steep_hill(hill, solid);
     const double c = hill.radius_of_curvature * hill.slope * hill.slope, a = hill.radius_of_curvature * hill.slope;
     const double steep = hill.slope * hill.slope;  // c^2/a^2
     const double scale = std::min(1.0, steep);     // keeps the largest entry of M at 1

@@ -3,9 +3,9 @@
 ///   Q(p) = q' M q + 2 w.q + c,  P_j(p) = n_j.q + offset_j,  q = p - anchor          (Gardner 1984, Eq 1, 2, 9)
 ///
 /// Inside is Q <= 0 and every P_j > 0; gradients point out of the quadric and into the kept side of a plane. The anchor
-/// is the quadric's centre where it has one, so w is nothing but the centre's rounding and no scene-sized number is
-/// left in M, w, c. Everything is computed from the file's numbers in 113-bit arithmetic and rounded once, to double; M
-/// is scaled so that its largest entry is about 1 (a quadric means the same up to a positive factor).
+/// is the quadric's centre where it has one (a steep hill's apex), so w is nothing but the centre's rounding and no
+/// scene-sized number is left in M, w, c. All is computed from the file's numbers in 113-bit arithmetic and rounded
+/// once, to double; M's largest entry is scaled to about 1 (a quadric means the same up to a positive factor).
 #pragma once
 
 #include <array>

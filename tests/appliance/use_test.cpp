@@ -96,6 +96,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {Arguments{"render", scene} + kStill, "nothing to make"},
         {render + kStill + Arguments{"--frobnicate"}, "--frobnicate"},
         {render + kStill + Arguments{"second.toml"}, "second.toml"},
+        {render + kStill + Arguments{"--depth", picture}, picture + " is given twice"},
         {render + kStill + Arguments{"--samples", "2"}, "--reference"},
         {render + kStill + Arguments{"--reference", "--samples", "0"}, "--samples"},
         {render + kStill + Arguments{"--reference", "--quality", "best"}, "--quality"},

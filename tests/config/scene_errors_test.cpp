@@ -111,7 +111,7 @@ const std::vector<Mistake> kMistakes{
     {"a plane of three numbers", "[[0.0, 0.0, 1.0, -1.0]]", "[[0.0, 0.0, 1.0]]", "object[0].planes[0]",
      "expected an array of 4 numbers, found an array of 3"},
     {"a plane without normal", "[[0.0, 0.0, 1.0, -1.0]]", "[[0, 0, 1, 0],\n [0, 0, 0, 1]]", "object[0].planes[1]",
-     "a normal B1, B2, B3 other than 0", 1},
+     "B1, B2 or B3 of at least 1e-60", 1},
     {"planes that are numbers", "[[0.0, 0.0, 1.0, -1.0]]", "[0, 0, 1, -1]", "object[0].planes[0]",
      "expected an array of 4 numbers, found 0"},
     {"a nan in a plane", "[[0.0, 0.0, 1.0, -1.0]]", "[[0, 0, 1, 0],\n [0, 0,\n nan, 1]]", "object[0].planes[1][2]",

@@ -93,6 +93,7 @@ TEST_CASE("A pipe, a device or a symbolic link that is written to is still there
     // A link stands for the device, lest a mistake here takes it from the machine.
     std::filesystem::create_symlink("/dev/full", full);
     CHECK_THROWS_WITH(write_whole(full, "no room"), Catch::Contains("full") && Catch::Contains("No space left"));
+    CHECK_THROWS_WITH(write_png(full, test::random_picture(200, 100, 4).image()), Catch::Contains("No space left"));
     CHECK(std::filesystem::is_symlink(full));
     CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 4);
 }

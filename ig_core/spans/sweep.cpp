@@ -1,15 +1,16 @@
 #include "ig_core/spans/sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "ig_core/spans/row_spans.h"
 
 namespace quadrig {
 namespace {
+
+/// From so many spans on, vectors sort them faster.
+constexpr std::size_t kMany = 48;
 
 constexpr std::uint32_t kNoSpan = std::numeric_limits<std::uint32_t>::max();
 
@@ -44,7 +45,7 @@ void RowSweep::cut(std::uint32_t first_order, std::uint32_t other, const PixelRo
     for (std::size_t i = 0; i < crossing_pieces_.size(); ++i) {
         RowSpan& piece = crossing_pieces_[i];
         if (piece.splits == 0 || !fit_columns(row, piece)) continue;
-        const Start start(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
+        const Start start = start_of(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
         spans.push_back(piece);
         pieces_.push_back({first_order, last_order, {other, i % 2 == 0 ? Priority::front : Priority::behind}});
         starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
@@ -123,28 +124,6 @@ void RowSweep::emit(int from, int to) {
     runs.push_back({from, to, first, count, partial});
 }
 
-/// By counting, where there are many: comparisons, half of which turn out otherwise than foreseen, take five times as
-/// long.
-void RowSweep::sort_starts() {
-    constexpr std::size_t kFew = 32;
-    if (starts_.size() < kFew) return std::sort(starts_.begin(), starts_.end(), std::greater<>());
-    constexpr int kBits = 7;  // of the fourteen that a column has
-    constexpr std::size_t kBins = 1 << kBits;
-    const auto low = [](Start start) { return static_cast<std::size_t>(start.column()) % kBins; };
-    const auto high = [](Start start) { return static_cast<std::size_t>(start.column()) / kBins % kBins; };
-    std::array<std::uint32_t, kBins> low_at{}, high_at{};  // how many a bin has, then where its next one goes
-    for (const Start start : starts_) ++low_at[low(start)], ++high_at[high(start)];
-    std::uint32_t lows = 0, highs = 0;
-    for (std::size_t bin = kBins; bin-- > 0;) {
-        lows += std::exchange(low_at[bin], lows);
-        highs += std::exchange(high_at[bin], highs);
-    }
-    sorted_by_low_.resize(starts_.size(), Start(0, 0));
-    for (auto start = starts_.rbegin(); start != starts_.rend(); ++start)
-        sorted_by_low_[low_at[low(*start)]++] = *start;
-    for (const Start start : sorted_by_low_) starts_[high_at[high(start)]++] = start;
-}
-
 void RowSweep::sweep(const PixelRow& row) {
     runs.clear();
     layers.clear();
@@ -156,17 +135,20 @@ void RowSweep::sweep(const PixelRow& row) {
     depths_.start(row);
     for (std::uint32_t i = 0; i < spans.size(); ++i) {
         spans[i].depths = -1;
-        starts_.emplace_back(spans[i].outer_from, i);
+        starts_.push_back(start_of(spans[i].outer_from, i));
     }
-    sort_starts();
+    if (starts_.size() < kMany)
+        std::sort(starts_.begin(), starts_.end(), std::greater<>());
+    else
+        sort_many_(starts_.data(), starts_.size(), hwy::SortDescending());
     int column = 0;
     while (column < row.columns) {
-        while (!starts_.empty() && starts_.back().column() <= column) {
-            const std::uint32_t index = starts_.back().span();
+        while (!starts_.empty() && column_of(starts_.back()) <= column) {
+            const auto index = static_cast<std::uint32_t>(starts_.back());
             starts_.pop_back();
             insert(index, row);
         }
-        int next = starts_.empty() ? row.columns : std::min(starts_.back().column(), row.columns);
+        int next = starts_.empty() ? row.columns : std::min(column_of(starts_.back()), row.columns);
         int first_end = row.columns;
         for (const Active& span : active_) {
             if (span.inner_from > column) next = std::min(next, span.inner_from);

@@ -1,6 +1,8 @@
 /// The scan-line sweep: spans of a pixel row in, visible runs of columns out (Gardner 1984, 2.1).
 #pragma once
 
+#include <hwy/contrib/sort/vqsort.h>
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,18 +31,13 @@ class RowSweep {
   private:
     void insert(std::uint32_t index, const PixelRow& row);
     void emit(int from, int to);
-    void sort_starts();
 
     /// Where a span begins: one number, which is quicker to sort than two.
-    struct Start {
-        std::uint64_t key;
-        Start(int column, std::uint32_t span) : key(static_cast<std::uint64_t>(column) << 32 | span) {}
-        [[nodiscard]] int column() const { return static_cast<int>(key >> 32); }
-        [[nodiscard]] std::uint32_t span() const { return static_cast<std::uint32_t>(key); }
-        friend bool operator>(Start a, Start b) { return a.key > b.key; }
-    };
+    using Start = std::uint64_t;
+    static Start start_of(int column, std::uint32_t span) { return static_cast<Start>(column) << 32 | span; }
+    static int column_of(Start start) { return static_cast<int>(start >> 32); }
     std::vector<Start> starts_;  // by falling column, then span: the next one is last
-    std::vector<Start> sorted_by_low_;
+    hwy::Sorter sort_many_;
     /// A span that the sweep is over, with what every step asks of it.
     struct Active {
         std::uint32_t span;

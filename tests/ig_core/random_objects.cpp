@@ -75,9 +75,9 @@ Object random_object(Randomness& random, Kind kind, const glm::dvec3& centre, do
                 : std::array{glm::dmat3{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, glm::dmat3{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},
                              glm::dmat3{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}[static_cast<std::size_t>(random.below(3))];
         LocalForm form = local_form(random, kind, size);
-        // A cone or wedge that coefficients far from the origin round to one sheet would not be convex.
-        if (form.lower_half && form.one == 0)
-            form.one = 1e-15 * (form.xx + form.yy - form.zz) * glm::dot(centre, centre);
+        // What coefficients far from the origin round to one sheet would not be convex.
+        if (form.lower_half)
+            form.one = std::max<double>(form.one, 1e-14 * (form.xx + form.yy - form.zz) * glm::dot(centre, centre));
         object.shape = expand(form, axes, centre);
         const auto cut = [&](const glm::dvec3& normal, double distance) {
             object.planes.push_back(plane_through(centre - distance * normal, normal));

@@ -23,9 +23,7 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
         u1_ = -plane.normal.x * step_ / plane.at_eye;
     };
     if (surface.kind == Surface::Kind::face) {
-        for (int i = 0; i < e.plane_count; ++i)
-            if (e.planes[static_cast<std::size_t>(i)].surface == surface.surface)
-                on_plane(e.planes[static_cast<std::size_t>(i)]);
+        on_plane(e.face(surface.surface));
         return;
     }
     if (e.flat_side) {

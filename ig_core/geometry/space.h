@@ -5,6 +5,7 @@
 /// Transforms are named target_from_source, so that a chain is right when the inner names touch.
 #pragma once
 
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -59,5 +60,10 @@ glm::dmat3 eye_from_scene_rotation(const Attitude& attitude);
 /// The attitude of a rotation: heading in 0..360, pitch in -90..90, roll in -180..180.
 /// At a pitch of +-90 degrees, where heading and roll turn about one axis, roll is 0.
 Attitude attitude_of(const glm::dmat3& eye_from_scene);
+
+/// In single precision, as shading computes.
+inline std::array<float, 3> to_float(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 }  // namespace quadrig

@@ -25,10 +25,6 @@ void set_forms(EyeSolid& e) {
                 e.determinant * outer(e.anchor);
 }
 
-std::array<float, 3> to_float(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 SceneQuadric in_scene(const Solid& solid, const glm::dvec3& eye_from_anchor) {
     const Sym3& m = solid.m;
     return {{static_cast<float>(m.xx), static_cast<float>(m.yy), static_cast<float>(m.zz), static_cast<float>(m.xy),

@@ -8,10 +8,6 @@
 namespace quadrig {
 namespace {
 
-std::array<float, 3> to_float(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// Terms by rising frequency: filtering drops them from the end. One without weight would end them as a dropped one
 /// does.
 std::vector<TextureTerm> sorted_terms(const Texture& texture) {

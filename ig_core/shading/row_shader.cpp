@@ -12,10 +12,6 @@ namespace {
 /// A surface hidden for fewer columns than this is shaded on through: a new vector costs more.
 constexpr int kLongestIdleRun = 12;
 
-std::array<float, 3> to_float(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// Where a span is sampled: on the mean of its sub-scan lines, between the means of their ends, which a convex outline
 /// has inside it; but no farther in than half a column from its outermost end, where edges are nearly level.
 struct SampleRange {

@@ -147,18 +147,36 @@ HWY_INLINE V exp2_minus(D d, V y) {
     return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
 }
 
-/// sRGB of linear light (IEC 61966-2-1), 0..255: a polynomial in sqrt(x), within 0.01 of a step; the linear toe below
-/// it. One square root and eight more terms take half the time of two and four.
+/// One of eight numbers, a lane's own. Vectors of eight lanes and more hold them all.
+struct EightNumbers {
+    alignas(64) float at[16];
+    template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
+    [[nodiscard]] HWY_INLINE hn::Vec<D> of(D d, VI index) const {
+        if constexpr (hn::MaxLanes(D()) >= 8)
+            return hn::TableLookupLanes(hn::Load(d, at), hn::IndicesFromVec(d, index));
+        else
+            return hn::GatherIndex(d, at, index);
+    }
+};
+
+/// sRGB of linear light (IEC 61966-2-1), 0..255, within 0.02 of a step: a cubic for each octave of y, which is linear
+/// light, scaled, from a place on that lets the first octave end near the curve's linear toe.
 template <class D>
 HWY_INLINE hn::Vec<D> srgb_steps(D d, hn::Vec<D> linear) {
+    static constexpr EightNumbers kCubic[4] = {
+        {{-11.1703062F, -24.2912769F, -5.35713959F, 7.3033371F, 20.0040054F, 34.8577194F, 53.4594383F, 77.3598709F}},
+        {{1709.55957F, 6719.81787F, 2868.7981F, 1625.34473F, 1009.45496F, 651.279602F, 427.580017F, 283.801483F}},
+        {{285154.594F, -321492.094F, -55924.4648F, -14438.8184F, -4289.49023F, -1354.10046F, -439.764374F,
+          -145.864197F}},
+        {{-16361678.0F, 6724076.5F, 535553.438F, 66417.0703F, 9677.04004F, 1513.01111F, 244.535202F, 40.6713905F}}};
+    constexpr int kFirstOctave = 127 - 8;  // y begins a little above 2^-8 and ends a little below 1
+    const hn::RebindToSigned<D> di;
     const auto x = hn::Clamp(linear, hn::Zero(d), hn::Set(d, 1.0F));
-    const auto s = hn::Sqrt(x);
-    auto p = hn::MulAdd(s, hn::Set(d, -954.691518F), hn::Set(d, 4392.71385F));
-    for (const float c :
-         {-8546.71752F, 9194.17448F, -6031.03567F, 2545.84316F, -758.732525F, 424.904054F, -11.4673457F})
-        p = hn::MulAdd(s, p, hn::Set(d, c));
-    const auto toe = hn::Mul(x, hn::Set(d, 12.92F * 255.0F));
-    return hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.0031308F)), toe, p);
+    const auto y = hn::MulAdd(x, hn::Set(d, 0.987413168F), hn::Set(d, 0.0042578125F));
+    const auto octave = hn::Sub(hn::ShiftRight<23>(hn::BitCast(di, y)), hn::Set(di, kFirstOctave));
+    auto p = kCubic[3].of(d, octave);
+    for (const int power : {2, 1, 0}) p = hn::MulAdd(y, p, kCubic[power].of(d, octave));
+    return p;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -130,7 +130,17 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
     probe.steady = probe.steady && (lit || in_shadow);
 }
 
-/// Sums of a steady block's slow terms, as many as are returned, at all its columns: between fine samples.
+/// The same sums at four times as many places.
+HWY_INLINE void refined(const TextureSums& sums, bool kept, void (*refine)(const Values&, Values&), TextureSums& more) {
+    refine(sums.x, more.x);
+    refine(sums.y, more.y);
+    if (!kept) return;
+    refine(sums.kept_x, more.kept_x);
+    refine(sums.kept_y, more.kept_y);
+}
+
+/// Sums of a steady block's slow terms, as many as are returned, at all its columns: between fine samples, and the
+/// slowest between the block's own.
 HWY_NOINLINE int interpolate_slow_terms(const ShadeInput& in, const BlockSamples& samples, const BlockProbe& probe,
                                         TextureSums& sums) {
     const int terms = probe.slow_terms(in, kFineStride);
@@ -144,14 +154,16 @@ HWY_NOINLINE int interpolate_slow_terms(const ShadeInput& in, const BlockSamples
     }
     to_fine(probe.points.footprint_x, points.footprint_x);
     to_fine(probe.points.footprint_y, points.footprint_y);
-    TextureSums fine;
-    add_terms(*in.paint->texture, in.paint->translucent, 0, terms, points, kFineCount, fine);
-    to_columns(fine.x, sums.x);
-    to_columns(fine.y, sums.y);
-    if (in.paint->translucent) {
-        to_columns(fine.kept_x, sums.kept_x);
-        to_columns(fine.kept_y, sums.kept_y);
+    const FrameTexture& texture = *in.paint->texture;
+    const bool kept = in.paint->translucent;
+    TextureSums coarse, fine;
+    const int slowest = probe.slow_terms(in, kCoarseStride);
+    if (slowest > 0) {
+        add_terms(texture, kept, 0, slowest, probe.points, BlockSamples::kCount, coarse);
+        refined(coarse, kept, to_fine, fine);
     }
+    if (terms > slowest) add_terms(texture, kept, slowest, terms, points, kFineCount, fine);
+    refined(fine, kept, to_columns, sums);
     return terms;
 }
 

@@ -3,7 +3,23 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <chrono>
+
 namespace quadrig {
+namespace {
+
+/// Waits until `value` is no longer `old`. Before it sleeps it looks for about as long as being woken would take: less
+/// than that passes between the stages of a frame, and between its workers' last blocks.
+template <class T>
+void wait_for_change(const std::atomic<T>& value, T old) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + std::chrono::microseconds(100);
+         value.load(std::memory_order_relaxed) == old && Clock::now() < end;)
+        std::this_thread::yield();
+    value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
 
 Workers::Workers(int count) {
     for (int i = 1; i < count; ++i) threads_.emplace_back([this, i] { work(i); });
@@ -29,31 +45,33 @@ void Workers::match_scheduling() {
 void Workers::run(int blocks, const std::function<void(int, int)>& task) {
     match_scheduling();
     task_ = &task;
-    blocks_ = blocks;
-    next_block_.store(0, std::memory_order_relaxed);
-    busy_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
+    done_.store(0, std::memory_order_relaxed);
+    blocks_.store(static_cast<std::uint64_t>(blocks) << 32, std::memory_order_release);
     generation_.fetch_add(1, std::memory_order_release);
     generation_.notify_all();
     claim_blocks(0);
-    for (int busy = busy_.load(std::memory_order_acquire); busy != 0; busy = busy_.load(std::memory_order_acquire))
-        busy_.wait(busy, std::memory_order_acquire);
+    for (int done = done_.load(std::memory_order_acquire); done != blocks; done = done_.load(std::memory_order_acquire))
+        wait_for_change(done_, done);
 }
 
 void Workers::work(int worker) {
     std::uint32_t seen = 0;
     for (;;) {
-        generation_.wait(seen, std::memory_order_acquire);
+        wait_for_change(generation_, seen);
         seen = generation_.load(std::memory_order_acquire);
         if (stop_) return;
         claim_blocks(worker);
-        if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
     }
 }
 
 void Workers::claim_blocks(int worker) {
-    for (int block = next_block_.fetch_add(1, std::memory_order_relaxed); block < blocks_;
-         block = next_block_.fetch_add(1, std::memory_order_relaxed))
+    for (;;) {
+        const std::uint64_t claim = blocks_.fetch_add(1, std::memory_order_acquire);
+        const int count = static_cast<int>(claim >> 32), block = static_cast<int>(claim & 0x7FFFFFFFU);
+        if (block >= count) return;
         (*task_)(block, worker);
+        if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == count) done_.notify_one();
+    }
 }
 
 }  // namespace quadrig

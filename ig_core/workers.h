@@ -31,11 +31,10 @@ class Workers {
 
     std::vector<std::thread> threads_;
     const std::function<void(int, int)>* task_ = nullptr;
-    int blocks_ = 0;
-    std::atomic<int> next_block_{0};
+    std::atomic<std::uint64_t> blocks_{0};  ///< how many in the upper half, the next one to be claimed in the lower
+    std::atomic<int> done_{0};              ///< of the blocks; who wakes too late for any is not waited for
     std::atomic<std::uint32_t> generation_{0};
-    std::atomic<int> busy_{0};
-    bool stop_ = false;
+    std::atomic<bool> stop_{false};
     int policy_ = 0;  ///< the caller's at the last run; SCHED_OTHER
 };
 

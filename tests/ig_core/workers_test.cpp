@@ -4,7 +4,10 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <random>
 #include <thread>
+#include <vector>
 
 using namespace quadrig;
 
@@ -23,4 +26,20 @@ TEST_CASE("workers take over the scheduling policy of the thread that renders") 
         }
     });
     renderer.join();
+}
+
+TEST_CASE("every block of a run is done once when the run ends, whether its workers wake in time for it or not") {
+    const unsigned seed = std::random_device{}();
+    CAPTURE(seed);
+    std::minstd_rand random(seed);
+    Workers workers(4);
+    for (int run = 0; run < 4000; ++run) {
+        std::vector<int> times(random() % 9, 0);
+        workers.run(static_cast<int>(times.size()), [&](int block, int worker) {
+            // Not atomic: what a worker has written is there for the caller to read.
+            times[static_cast<std::size_t>(block)] += worker < workers.count() ? 1 : 100;
+        });
+        if (times != std::vector<int>(times.size(), 1)) FAIL("run " << run << " of " << times.size() << " blocks");
+        if (run % 50 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));  // they fall asleep
+    }
 }

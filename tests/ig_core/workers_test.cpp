@@ -39,7 +39,7 @@ TEST_CASE("every block of a run is done once when the run ends, whether its work
             // Not atomic: what a worker has written is there for the caller to read.
             times[static_cast<std::size_t>(block)] += worker < workers.count() ? 1 : 100;
         });
-        if (times != std::vector<int>(times.size(), 1)) FAIL("run " << run << " of " << times.size() << " blocks");
+        REQUIRE(times == std::vector<int>(times.size(), 1));
         if (run % 50 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));  // they fall asleep
     }
 }

@@ -122,7 +122,9 @@ config::QualityLadder ladder_from(const std::vector<SettingResult>& results) {
             name = "best";
         else if (!ladder.empty() && ladder.back().name == "default")
             name = "fine";
-        ladder.push_back({name, step->quality, step->cost, psnr});
+        // As many digits as the table has, and a measurement is worth.
+        ladder.push_back(
+            {name, step->quality, std::max(0.01, std::round(100 * step->cost) / 100), std::round(10 * psnr) / 10});
     }
     return ladder;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 
 #include "config/quality_ladder.h"
@@ -67,7 +68,10 @@ TEST_CASE("Speed and error of every setting come as table, JSON, plot and ladder
 
     const config::QualityLadder ladder = config::read_quality_ladder(out / "ladder.toml");
     CHECK(ladder[config::default_step(ladder)].quality == Quality{});
-    for (const config::QualityStep& step : ladder) CHECK((step.psnr >= 38.0 || step.name == "default"));
+    for (const config::QualityStep& step : ladder) {
+        CHECK((step.psnr >= 38.0 || step.name == "default"));
+        CHECK(step.cost == std::round(100 * step.cost) / 100);  // no more digits than a measurement is worth
+    }
     const Outcome bench =
         quadrig_program({"bench", scene, "--path", cameras, "--size", "48x36", "--ladder", out / "ladder.toml",
                          "--quality", ladder.front().name, "--report", out / "report.json"});

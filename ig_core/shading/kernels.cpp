@@ -14,17 +14,22 @@ HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 
-std::uint64_t Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
-    switch (in.kind) {
-        case ShadeInput::Kind::sky:
-            shade_sky(in, buffer, offset);
-            return 0;
-        case ShadeInput::Kind::light:
-            shade_light(in, buffer, offset);
-            return 0;
-        default:
-            return shade_surface(in, buffer, offset);
+std::uint64_t Shade(std::span<const ShadeInput> jobs, ShadeBuffer& buffer) {
+    StretchBatch<1> columns;
+    StretchBatch<2> pairs;
+    std::uint64_t terms = 0;
+    for (const ShadeInput& in : jobs) {
+        if (in.kind == ShadeInput::Kind::sky || in.kind == ShadeInput::Kind::light) {
+            columns.shade(buffer), pairs.shade(buffer);
+            in.kind == ShadeInput::Kind::sky ? shade_sky(in, buffer) : shade_light(in, buffer);
+        } else if (in.row->pairs) {
+            shade_pairs(in, pairs, buffer);
+        } else {
+            terms += shade_columns(in, columns, buffer);
+        }
     }
+    columns.shade(buffer), pairs.shade(buffer);
+    return terms;
 }
 
 void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
@@ -225,8 +230,8 @@ void ShadeBuffer::resize(std::size_t count) {
     for (auto* plane : {&red, &green, &blue, &opacity}) plane->resize(count);
 }
 
-std::uint64_t shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset) {
-    return HWY_DYNAMIC_DISPATCH(Shade)(input, buffer, offset);
+std::uint64_t shade(std::span<const ShadeInput> jobs, ShadeBuffer& buffer) {
+    return HWY_DYNAMIC_DISPATCH(Shade)(jobs, buffer);
 }
 void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                     std::span<const float> z, std::span<float> t) {

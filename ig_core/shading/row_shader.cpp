@@ -43,6 +43,21 @@ bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
     return true;
 }
 
+/// Whether the layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
+/// pixel: so do most.
+bool side_by_side_before_whole(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
+    const auto layer = [&](std::uint32_t i) -> const RowSpan& {
+        return sweep.spans[sweep.layers[run.first_layer + i]];
+    };
+    const std::uint32_t in_front = run.layer_count - 1;
+    const RowSpan& last = layer(in_front);
+    if (!last.surface.opaque || last.inner_from > run.from || last.inner_to < run.to) return false;
+    for (std::uint32_t i = 1; i < in_front; ++i)
+        for (std::uint32_t j = 0; j < i; ++j)
+            if (!side_by_side(row, layer(i), layer(j))) return false;
+    return true;
+}
+
 void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
     const double zeta = z - e.z0;
     in.kind = ShadeInput::Kind::quadric;
@@ -238,8 +253,15 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             continue;
         }
         work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        group_layers(row, sweep, run);
-        composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        if (side_by_side_before_whole(row, sweep, run)) {
+            partial_.clear();
+            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i)
+                partial_.push_back({sample(i, run.from), 0, &sweep.spans[sweep.layers[i]]});
+            composite_before_whole(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        } else {
+            group_layers(row, sweep, run);
+            composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        }
     }
     assert(all_numbers(row_, row.columns));
 }

@@ -39,6 +39,10 @@ struct PartialLayer {
 void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
                        ShadeBuffer& row);
 
+/// The same for layers that lie side by side in front of the last one, which is opaque and covers all of every pixel.
+void composite_before_whole(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to,
+                            int sub_lines, ShadeBuffer& row);
+
 /// `lower` becomes the mean of 2 x 2 samples: of columns 2 i and 2 i + 1 of both rows, `count` of them, from the left.
 void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower);
 

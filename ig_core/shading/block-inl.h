@@ -30,7 +30,7 @@ struct Setting {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const SurfacePoint<V>& point) {
     const V one = hn::Set(d, 1.0F);
-    const FrameLight& light = *in.light;
+    const FrameLight& light = *in.row->light;
     const FramePaint& paint = *in.paint;
     const V facing = hn::Max(hn::Zero(d), hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
     const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
@@ -58,7 +58,7 @@ struct Settings {
     template <class D, class V = hn::Vec<D>>
     [[nodiscard]] HWY_INLINE Setting<V> between(D d, const ShadeInput& in, std::size_t c) const {
         const V one = hn::Set(d, 1.0F);
-        return {between_coarse(d, lit, c), in.light->haze ? between_coarse(d, kept, c) : one,
+        return {between_coarse(d, lit, c), in.row->light->haze ? between_coarse(d, kept, c) : one,
                 in.paint->translucent ? between_coarse(d, threshold, c) : one};
     }
 };
@@ -113,7 +113,7 @@ HWY_NOINLINE void probe_block(const ShadeInput& in, const BlockSamples& samples,
         const Length<V> length = length_of(d, ray);
         const SurfacePoint<V> point = on_surface(d, in, column, ray, entry_at(d, in, column, ray));
         probe.steady = probe.steady && changes_little(d, in, column, stride, point);
-        const V facing = dot(point.normal, splat(d, in.light->to_sun));
+        const V facing = dot(point.normal, splat(d, in.row->light->to_sun));
         lit = lit && hn::AllTrue(d, hn::Ge(facing, hn::Zero(d)));
         in_shadow = in_shadow && hn::AllTrue(d, hn::Le(facing, hn::Zero(d)));
         PixelFootprint<V> f{{hn::Zero(d), hn::Zero(d)}, {hn::Zero(d), hn::Zero(d)}};

@@ -14,17 +14,22 @@ HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 
-std::uint64_t Shade(const ShadeInput& in, ShadeBuffer& buffer, std::size_t offset) {
-    switch (in.kind) {
-        case ShadeInput::Kind::sky:
-            shade_sky(in, buffer, offset);
-            return 0;
-        case ShadeInput::Kind::light:
-            shade_light(in, buffer, offset);
-            return 0;
-        default:
-            return shade_surface(in, buffer, offset);
+std::uint64_t Shade(std::span<const ShadeInput> jobs, ShadeBuffer& buffer) {
+    StretchBatch<1> columns;
+    StretchBatch<2> pairs;
+    std::uint64_t terms = 0;
+    for (const ShadeInput& in : jobs) {
+        if (in.kind == ShadeInput::Kind::sky || in.kind == ShadeInput::Kind::light) {
+            columns.shade(buffer), pairs.shade(buffer);
+            in.kind == ShadeInput::Kind::sky ? shade_sky(in, buffer) : shade_light(in, buffer);
+        } else if (in.row->pairs) {
+            shade_pairs(in, pairs, buffer);
+        } else {
+            terms += shade_columns(in, columns, buffer);
+        }
     }
+    columns.shade(buffer), pairs.shade(buffer);
+    return terms;
 }
 
 void TextureValues(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
@@ -140,6 +145,43 @@ void CompositePartial(const ShadeBuffer& buffer, std::span<const PartialLayer> l
         composite_cells<kMaxCells>(buffer, layers, from, to, lines, row);
 }
 
+/// Share of a pixel that lies between a span's ends, on the mean of the sub-scan lines.
+HWY_INLINE float pixel_cover(const RowSpan& span, int column, std::size_t lines, double share) {
+    const hn::CappedTag<double, 2> d;
+    const std::size_t n = hn::Lanes(d);
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0), left = hn::Set(d, column);
+    auto sum = zero;
+    for (std::size_t i = 0; i < lines; i += n) {
+        const auto to = hn::Clamp(hn::Sub(hn::LoadU(d, span.to.data() + i), left), zero, one);
+        const auto from = hn::Clamp(hn::Sub(hn::LoadU(d, span.from.data() + i), left), zero, one);
+        const auto part = hn::Max(zero, hn::Sub(to, from));
+        sum = hn::Add(sum, i + n <= lines ? part : hn::IfThenElseZero(hn::FirstN(d, lines - i), part));
+    }
+    return static_cast<float>(hn::GetLane(hn::SumOfLanes(d, sum)) * share);
+}
+
+void CompositeBeforeWhole(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to,
+                          int sub_lines, ShadeBuffer& row) {
+    const auto lines = static_cast<std::size_t>(sub_lines);
+    const double share = 1.0 / sub_lines;
+    const std::span<const PartialLayer> in_front = layers.first(layers.size() - 1);
+    for (int column = from; column < to; ++column) {
+        const auto past = static_cast<std::uint32_t>(column - from);
+        const std::size_t whole = layers.back().sample + past;
+        const float r = buffer.red[whole], g = buffer.green[whole], b = buffer.blue[whole];
+        float red = r, green = g, blue = b;
+        for (const PartialLayer& layer : in_front) {
+            const std::size_t sample = layer.sample + past;
+            const float weight = pixel_cover(*layer.span, column, lines, share) * buffer.opacity[sample];
+            red += weight * (buffer.red[sample] - r);
+            green += weight * (buffer.green[sample] - g);
+            blue += weight * (buffer.blue[sample] - b);
+        }
+        const auto at = static_cast<std::size_t>(column);
+        row.red[at] = red, row.green[at] = green, row.blue[at] = blue;
+    }
+}
+
 void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
@@ -216,6 +258,7 @@ HWY_EXPORT(Shade);
 HWY_EXPORT(TextureValues);
 HWY_EXPORT(CompositeWhole);
 HWY_EXPORT(CompositePartial);
+HWY_EXPORT(CompositeBeforeWhole);
 HWY_EXPORT(AverageSquares);
 HWY_EXPORT(PackSrgb8);
 HWY_EXPORT(PackSrgb8Doubled);
@@ -225,8 +268,8 @@ void ShadeBuffer::resize(std::size_t count) {
     for (auto* plane : {&red, &green, &blue, &opacity}) plane->resize(count);
 }
 
-std::uint64_t shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset) {
-    return HWY_DYNAMIC_DISPATCH(Shade)(input, buffer, offset);
+std::uint64_t shade(std::span<const ShadeInput> jobs, ShadeBuffer& buffer) {
+    return HWY_DYNAMIC_DISPATCH(Shade)(jobs, buffer);
 }
 void texture_values(const FrameTexture& texture, std::span<const float> x, std::span<const float> y,
                     std::span<const float> z, std::span<float> t) {
@@ -239,6 +282,10 @@ void composite_whole(const ShadeBuffer& buffer, std::span<const std::uint32_t> s
 void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
                        ShadeBuffer& row) {
     HWY_DYNAMIC_DISPATCH(CompositePartial)(buffer, layers, from, to, sub_lines, row);
+}
+void composite_before_whole(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to,
+                            int sub_lines, ShadeBuffer& row) {
+    HWY_DYNAMIC_DISPATCH(CompositeBeforeWhole)(buffer, layers, from, to, sub_lines, row);
 }
 void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     HWY_DYNAMIC_DISPATCH(AverageSquares)(upper, count, lower);

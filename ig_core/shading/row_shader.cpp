@@ -1,6 +1,7 @@
 #include "ig_core/shading/row_shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -42,11 +43,25 @@ bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
     return true;
 }
 
-void set_quadric(const EyeSolid& e, double x, double z, double column_step, ShadeInput& in) {
+/// Whether the layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
+/// pixel: so do most.
+bool side_by_side_before_whole(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
+    const auto layer = [&](std::uint32_t i) -> const RowSpan& {
+        return sweep.spans[sweep.layers[run.first_layer + i]];
+    };
+    const std::uint32_t in_front = run.layer_count - 1;
+    const RowSpan& last = layer(in_front);
+    if (!last.surface.opaque || last.inner_from > run.from || last.inner_to < run.to) return false;
+    for (std::uint32_t i = 1; i < in_front; ++i)
+        for (std::uint32_t j = 0; j < i; ++j)
+            if (!side_by_side(row, layer(i), layer(j))) return false;
+    return true;
+}
+
+void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
     const double zeta = z - e.z0;
     in.kind = ShadeInput::Kind::quadric;
     in.xi = static_cast<float>(x - e.x0);
-    in.xi_step = static_cast<float>(column_step);
     in.c = static_cast<float>(e.s);
     in.b = {static_cast<float>(e.v.y + e.v.z * zeta), static_cast<float>(e.v.x)};
     const auto on_row = [&](const Sym3& form) {
@@ -55,10 +70,7 @@ void set_quadric(const EyeSolid& e, double x, double z, double column_step, Shad
     };
     in.a = on_row(e.m);
     in.limb = on_row(e.limb);
-    in.m = e.in_scene.m;
-    in.gradient = e.in_scene.gradient;
-    in.eye_from_anchor = e.in_scene.eye_from_anchor;
-    in.inverse_centre_value = e.in_scene.inverse_centre_value;
+    in.quadric = &e.in_scene;
 }
 
 /// `depth` is that of the job's first sample.
@@ -67,7 +79,6 @@ void set_plane(const std::array<float, 3>& outward, const DepthOnLine::Sample& d
     in.normal = outward;
     in.plane_u = static_cast<float>(depth.u);
     in.plane_u_step = static_cast<float>(depth.slope);
-    in.inverse_centre_value = 0.0F;
 }
 
 /// Colour of a light's disc: what the haze lets through of it, no more than the picture can hold, over the haze's own.
@@ -80,23 +91,52 @@ std::array<float, 3> seen_light(const LightPoint& light, const SeenLight& seen, 
     return to_float(haze + std::min(kept * light.intensity, room) * light.colour);
 }
 
-/// What all jobs of a row have in common.
-ShadeInput row_input(const FrameShading& frame, const PixelRow& row) {
-    ShadeInput in;
-    in.light = &frame.light;
-    in.smooth_stretches = frame.quality.smooth_stretches;
-    in.pairs = shades_pairs(frame.quality.shading);
-    in.ray_step = to_float(frame.scene_from_eye[0] * row.column_step);
-    in.along_row = to_float(frame.scene_from_eye[2] * row.row_step);
-    return in;
+ShadeRow shade_row(const FrameShading& frame, const PixelRow& row) {
+    return {&frame.light,
+            frame.quality.smooth_stretches,
+            shades_pairs(frame.quality.shading),
+            to_float(frame.scene_from_eye[0] * row.column_step),
+            to_float(frame.scene_from_eye[2] * row.row_step),
+            static_cast<float>(row.column_step)};
+}
+
+/// What a surface is painted with: null for the sky and for lights.
+const FramePaint* paint_of(const FramePaints& paints, const Surface& surface) {
+    switch (surface.kind) {
+        case Surface::Kind::quadric:
+        case Surface::Kind::face:
+            return &paints.objects[surface.outline->object];
+        case Surface::Kind::marking:
+            return &paints.markings[surface.index];
+        case Surface::Kind::ground:
+            return &paints.ground;
+        case Surface::Kind::deck:
+            return &paints.decks[surface.index];
+        default:
+            return nullptr;
+    }
+}
+
+/// Jobs are put in order by bins, the sky and lights first. What is asked of jobs of one bin is the same, so that they
+/// are shaded together and a processor foresees the next one's way; textures that share a number cost a little time.
+constexpr std::ptrdiff_t kTextureBins = 16;
+constexpr std::size_t kBins = 1 + 8 * kTextureBins;
+std::uint8_t bin_of(const FramePaints& paints, const Surface& surface, const ShadeJob& job) {
+    if (job.paint == nullptr) return 0;
+    const FramePaint& paint = *job.paint;
+    const std::ptrdiff_t texture = paint.texture == nullptr ? 0 : 1 + (paint.texture - paints.textures.data());
+    const bool quadric = surface.kind == Surface::Kind::quadric, few = job.to - job.from <= kFewSamples;
+    return static_cast<std::uint8_t>(1 + 8 * (texture % kTextureBins) + 4 * paint.translucent + 2 * few + quadric);
 }
 
 /// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
-void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span, int from, int to, ShadeInput& in) {
+void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span, const ShadeJob& job, ShadeInput& in) {
     const SampleRange range = sample_range(row, span);
     const Surface& surface = span.surface;
-    in.count = to - from;
-    const double first = from + 0.5, x = row.x(first);
+    in.count = job.to - job.from;
+    in.buffer = job.buffer;
+    in.paint = job.paint;
+    const double first = job.from + 0.5, x = row.x(first);
     in.least_column = static_cast<float>(range.from - first);
     in.most_column = static_cast<float>(range.to - first);
     in.ray = to_float(frame.scene_from_eye * glm::dvec3(x, 1.0, range.z));
@@ -111,23 +151,14 @@ void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span
             in.colour = seen_light((*frame.lights)[surface.index], *surface.light, frame.light);
             break;
         case Surface::Kind::quadric:
-            in.paint = &frame.paints->objects[surface.outline->object];
-            set_quadric(surface.outline->solid, x, range.z, row.column_step, in);
+            set_quadric(surface.outline->solid, x, range.z, in);
             break;
         case Surface::Kind::face:
-            in.paint = &frame.paints->objects[surface.outline->object];
             set_plane(surface.outline->solid.face(surface.surface).scene_outward, depth(), in);
             break;
         case Surface::Kind::marking:
-            in.paint = &frame.paints->markings[surface.index];
-            set_plane(kUp, depth(), in);
-            break;
         case Surface::Kind::ground:
-            in.paint = &frame.paints->ground;
-            set_plane(kUp, depth(), in);
-            break;
         case Surface::Kind::deck:
-            in.paint = &frame.paints->decks[surface.index];
             set_plane(kUp, depth(), in);
             break;
     }
@@ -157,16 +188,29 @@ void RowShader::plan(const RowSweep& sweep) {
             std::int32_t& job = job_of_span_[span];
             if (job < 0 || jobs_[static_cast<std::size_t>(job)].to + kLongestIdleRun < run.from) {
                 job = static_cast<std::int32_t>(jobs_.size());
-                jobs_.push_back({span, run.from, run.to, 0});
+                jobs_.push_back({span, run.from, run.to});
             }
             jobs_[static_cast<std::size_t>(job)].to = run.to;
             job_of_layer_[i] = static_cast<std::uint32_t>(job);
         }
     }
-    std::uint32_t used = 0;
+}
+
+void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
+    std::array<std::uint32_t, kBins + 1> first_in_bin{};
     for (ShadeJob& job : jobs_) {
-        job.buffer = used;
-        used += static_cast<std::uint32_t>(job.to - job.from);
+        const Surface& surface = sweep.spans[job.span].surface;
+        job.paint = paint_of(*frame.paints, surface);
+        job.bin = bin_of(*frame.paints, surface, job);
+        ++first_in_bin[job.bin + 1U];
+    }
+    for (std::size_t i = 1; i < first_in_bin.size(); ++i) first_in_bin[i] += first_in_bin[i - 1];
+    order_.resize(jobs_.size());
+    for (std::uint32_t i = 0; i < jobs_.size(); ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
+    std::uint32_t used = 0;
+    for (const std::uint32_t i : order_) {
+        jobs_[i].buffer = used;
+        used += static_cast<std::uint32_t>(jobs_[i].to - jobs_[i].from);
     }
     buffer_.resize(used + kShadePadding);
     work_.stretches += jobs_.size();
@@ -189,12 +233,15 @@ void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const L
 
 void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep) {
     plan(sweep);
-    ShadeInput input = row_input(frame, row);
-    // In buffer order: what a job writes past its end is overwritten by the next.
-    for (const ShadeJob& job : jobs_) {
-        set_job(frame, row, sweep.spans[job.span], job.from, job.to, input);
-        work_.terms += shade(input, buffer_, job.buffer);
+    order_jobs(frame, sweep);
+    const ShadeRow common = shade_row(frame, row);
+    inputs_.resize(jobs_.size());
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+        const ShadeJob& job = jobs_[order_[i]];
+        set_job(frame, row, sweep.spans[job.span], job, inputs_[i]);
+        inputs_[i].row = &common;
     }
+    work_.terms += shade(inputs_, buffer_);
 
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
     for (const LayerRun& run : sweep.runs) {
@@ -205,9 +252,16 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
             composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
             continue;
         }
-        group_layers(row, sweep, run);
         work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        if (side_by_side_before_whole(row, sweep, run)) {
+            partial_.clear();
+            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i)
+                partial_.push_back({sample(i, run.from), 0, &sweep.spans[sweep.layers[i]]});
+            composite_before_whole(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        } else {
+            group_layers(row, sweep, run);
+            composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
+        }
     }
     assert(all_numbers(row_, row.columns));
 }

@@ -43,7 +43,10 @@ class RowShader {
     Work take_work() { return std::exchange(work_, {}); }
 
   private:
+    /// Which columns of each span are shaded.
     void plan(const RowSweep& sweep);
+    /// Puts jobs that are shaded alike one behind the other in the buffer.
+    void order_jobs(const FrameShading& frame, const RowSweep& sweep);
     /// Where a layer of a run stands in the buffer, from a column of the run on.
     [[nodiscard]] std::uint32_t sample(std::uint32_t layer, int column) const {
         const ShadeJob& job = jobs_[job_of_layer_[layer]];
@@ -53,6 +56,8 @@ class RowShader {
     void group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run);
 
     std::vector<ShadeJob> jobs_;
+    std::vector<std::uint32_t> order_;
+    std::vector<ShadeInput> inputs_;
     std::vector<std::int32_t> job_of_span_;
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
     std::vector<std::uint32_t> samples_;

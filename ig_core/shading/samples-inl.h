@@ -19,16 +19,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kMostSamples = 192;
 
-/// One value of each sample.
+/// One value of each sample. Samples of several stretches stand one behind the other, so vectors begin anywhere.
 struct Values {
     alignas(64) float at[kMostSamples + kShadePadding];
     template <class D>
     [[nodiscard]] HWY_INLINE hn::Vec<D> load(D d, std::size_t i) const {
-        return hn::Load(d, at + i);
+        return hn::LoadU(d, at + i);
     }
     template <class D>
     HWY_INLINE void store(D d, hn::Vec<D> values, std::size_t i) {
-        hn::Store(values, d, at + i);
+        hn::StoreU(values, d, at + i);
     }
 };
 

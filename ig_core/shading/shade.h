@@ -9,10 +9,11 @@
 
 namespace quadrig {
 
-/// Shades one job (image model: Eq 15, light, limb function, translucence, haze) into buffer[offset...], planar linear
-/// light. Writes up to kShadePadding samples past the end. Returns how many terms of a texture it was asked for at
-/// samples of their own, neither interpolated nor shared.
-std::uint64_t shade(const ShadeInput& input, ShadeBuffer& buffer, std::size_t offset);
+/// Shades the jobs of a row (image model: Eq 15, light, limb function, translucence, haze) into `buffer`, planar linear
+/// light. Jobs stand there one behind the other; up to kShadePadding samples are written past the last one's end. Short
+/// ones that follow one another and show one texture are shaded together. Returns how many terms of a texture it was
+/// asked for at samples of their own, neither interpolated nor shared.
+std::uint64_t shade(std::span<const ShadeInput> jobs, ShadeBuffer& buffer);
 
 /// Evaluates the texturing function without filtering at scene points given relative to the eye, as shading does: for
 /// tests.
@@ -37,6 +38,10 @@ struct PartialLayer {
 /// Lays the layers of columns [from, to) over one another, front to back.
 void composite_partial(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to, int sub_lines,
                        ShadeBuffer& row);
+
+/// The same for layers that lie side by side in front of the last one, which is opaque and covers all of every pixel.
+void composite_before_whole(const ShadeBuffer& buffer, std::span<const PartialLayer> layers, int from, int to,
+                            int sub_lines, ShadeBuffer& row);
 
 /// `lower` becomes the mean of 2 x 2 samples: of columns 2 i and 2 i + 1 of both rows, `count` of them, from the left.
 void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower);

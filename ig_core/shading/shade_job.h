@@ -49,31 +49,41 @@ struct ShadeJob {
     std::uint32_t span = 0;
     int from = 0, to = 0;
     std::uint32_t buffer = 0;
+    const FramePaint* paint = nullptr;  ///< null: sky or light
+    std::uint8_t bin = 0;               ///< jobs of one bin are shaded together
+};
+
+/// So many samples of a surface are shaded in a vector of no more.
+inline constexpr int kFewSamples = 8;
+
+/// What all jobs of a row have in common.
+struct ShadeRow {
+    const FrameLight* light = nullptr;
+    bool smooth_stretches = true;  ///< interpolate what changes slowly
+    bool pairs = false;            ///< one sample for two columns
+    // Scene axes: how a ray's direction changes from a column and from a row to the next.
+    std::array<float, 3> ray_step{}, along_row{};
+    float xi_step = 0;  ///< the same of xi
 };
 
 /// A job's numbers. Columns are counted from the job's first one, at pixel centres.
 struct ShadeInput {
     enum class Kind : std::uint8_t { sky, light, plane, quadric };
     Kind kind = Kind::sky;
-    bool smooth_stretches = true;  ///< interpolate what changes slowly
-    bool pairs = false;            ///< one sample for two columns
     int count = 0;
+    std::uint32_t buffer = 0;                 ///< where the first column's sample goes
     float least_column = 0, most_column = 0;  ///< sample points stay within the surface
     std::array<float, 3> colour{};            ///< lights: as it is seen, haze included
-    // Ray direction in scene axes and its parts: d = ray + column * ray_step; along_row the step to the next row.
-    std::array<float, 3> ray{}, ray_step{}, along_row{};
-    std::array<float, 3> normal{};        ///< planes: unit, outward
-    float plane_u = 0, plane_u_step = 0;  ///< planes: 1/k
+    std::array<float, 3> ray{};               ///< direction, scene axes: d = ray + column * ray_step
+    std::array<float, 3> normal{};            ///< planes: unit, outward
+    float plane_u = 0, plane_u_step = 0;      ///< planes: 1/k
     // Quadrics: xi = xi + column * xi_step; A, B, L as polynomials in xi; C.
-    float xi = 0, xi_step = 0, c = 0;
+    float xi = 0, c = 0;
     std::array<float, 2> b{};
     std::array<float, 3> a{}, limb{};
-    float inverse_centre_value = 0;                      ///< 1 / |Q(centre)|, 0 where g is 1
-    std::array<float, 6> m{};                            ///< xx yy zz xy xz yz, scene axes
-    std::array<float, 3> eye_from_anchor{}, gradient{};  ///< eye - anchor; w
-    float largest_depth = 1e7F;
+    const SceneQuadric* quadric = nullptr;
     const FramePaint* paint = nullptr;
-    const FrameLight* light = nullptr;
+    const ShadeRow* row = nullptr;
 };
 
 /// Linear light and opacity of shaded samples, one array each.

@@ -17,6 +17,9 @@ namespace quadrig {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// What lies beyond is drawn as if it were there, metres.
+constexpr float kLargestDepth = 1e7F;
+
 /// Where the rays of a few columns meet a surface, and what light needs to know there.
 template <class V>
 struct SurfacePoint {
@@ -30,7 +33,7 @@ struct SurfacePoint {
 /// Ray direction through a column of the job, scene axes.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3<V> ray_at(D d, const ShadeInput& in, V column) {
-    return mul_add(column, splat(d, in.ray_step), splat(d, in.ray));
+    return mul_add(column, splat(d, in.row->ray_step), splat(d, in.ray));
 }
 
 /// Where a ray enters a surface.
@@ -42,7 +45,7 @@ struct Entry {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V quadric_xi(D d, const ShadeInput& in, V column) {
-    return hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
+    return hn::MulAdd(column, hn::Set(d, in.row->xi_step), hn::Set(d, in.xi));
 }
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V quadric_a(D d, const ShadeInput& in, V xi) {
@@ -62,19 +65,19 @@ HWY_INLINE Entry<V> entry_into_quadric(D d, const ShadeInput& in, V column) {
     const V numerator = hn::IfThenElse(before, hn::Set(d, in.c), hn::Add(b, root));
     const V denominator = hn::IfThenElse(before, hn::Sub(root, b), hn::Neg(a));
     const V depth = hn::Div(numerator, denominator);
-    return {
-        hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, in.largest_depth)), hn::Set(d, in.largest_depth)),
-        root};
+    return {hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, kLargestDepth)), hn::Set(d, kLargestDepth)),
+            root};
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const Vec3<V>& ray, const Entry<V>& entry) {
-    const Vec3<V> q = mul_add(entry.depth, ray, splat(d, in.eye_from_anchor));
-    const V xx = hn::Set(d, in.m[0]), yy = hn::Set(d, in.m[1]), zz = hn::Set(d, in.m[2]);
-    const V xy = hn::Set(d, in.m[3]), xz = hn::Set(d, in.m[4]), yz = hn::Set(d, in.m[5]);
-    const Vec3<V> normal{hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, hn::Set(d, in.gradient[0])))),
-                         hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, hn::Set(d, in.gradient[1])))),
-                         hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, hn::Set(d, in.gradient[2]))))};
+    const Vec3<V> q = mul_add(entry.depth, ray, splat(d, in.quadric->eye_from_anchor));
+    const V xx = hn::Set(d, in.quadric->m[0]), yy = hn::Set(d, in.quadric->m[1]), zz = hn::Set(d, in.quadric->m[2]);
+    const V xy = hn::Set(d, in.quadric->m[3]), xz = hn::Set(d, in.quadric->m[4]), yz = hn::Set(d, in.quadric->m[5]);
+    const Vec3<V> normal{
+        hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, hn::Set(d, in.quadric->gradient[0])))),
+        hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, hn::Set(d, in.quadric->gradient[1])))),
+        hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, hn::Set(d, in.quadric->gradient[2]))))};
     const V inverse_length = inverse_sqrt(d, hn::Max(dot(normal, normal), hn::Set(d, 1e-30F)));
     return {entry.depth,
             normal,
@@ -89,8 +92,9 @@ HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V limb_share(D d, const ShadeInput& in, const SurfacePoint<V>& point) {
     const V one = hn::Set(d, 1.0F);
-    if (!(in.inverse_centre_value > 0.0F)) return one;
-    const V g = hn::Div(hn::Mul(point.limb, hn::Set(d, in.inverse_centre_value)), hn::Max(point.a, hn::Set(d, 1e-30F)));
+    if (in.kind != ShadeInput::Kind::quadric || !(in.quadric->inverse_centre_value > 0.0F)) return one;
+    const V share = hn::Mul(point.limb, hn::Set(d, in.quadric->inverse_centre_value));
+    const V g = hn::Div(share, hn::Max(point.a, hn::Set(d, 1e-30F)));
     return hn::IfThenElse(hn::Gt(point.a, hn::Zero(d)), hn::Min(one, g), one);
 }
 
@@ -98,7 +102,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE Entry<V> entry_at(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
     if (in.kind == ShadeInput::Kind::quadric) return entry_into_quadric(d, in, column);
     const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
-    return {hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / in.largest_depth))),
+    return {hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / kLargestDepth))),
             hn::Neg(dot(splat(d, in.normal), ray))};
 }
 
@@ -112,9 +116,9 @@ HWY_INLINE SurfacePoint<V> on_surface(D d, const ShadeInput& in, V column, const
 constexpr float kSteadyShare = 0.25F;
 /// Whether it is no more at a column of a quadric: quickly, before samples are taken.
 HWY_INLINE bool limb_is_far(const ShadeInput& in, float column, float stride) {
-    const float xi = in.xi + column * in.xi_step;
+    const float xi = in.xi + column * in.row->xi_step;
     const float limb = in.limb[0] + xi * (in.limb[1] + xi * in.limb[2]), slope = in.limb[1] + 2.0F * xi * in.limb[2];
-    return stride * std::abs(in.xi_step * slope) < kSteadyShare * limb;
+    return stride * std::abs(in.row->xi_step * slope) < kSteadyShare * limb;
 }
 
 /// Whether depth and normal change so little over `stride` columns that a cubic follows them: to 3e-4. L bends a
@@ -125,10 +129,10 @@ HWY_INLINE bool changes_little(D d, const ShadeInput& in, V column, float stride
         const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
         return hn::AllTrue(d, hn::Gt(hn::Mul(hn::Set(d, 0.15F), u), hn::Set(d, stride * std::abs(in.plane_u_step))));
     }
-    const V xi = hn::MulAdd(column, hn::Set(d, in.xi_step), hn::Set(d, in.xi));
+    const V xi = hn::MulAdd(column, hn::Set(d, in.row->xi_step), hn::Set(d, in.xi));
     const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
     const V limb_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.limb[2]), hn::Set(d, in.limb[1]));
-    const float step = stride * std::abs(in.xi_step);
+    const float step = stride * std::abs(in.row->xi_step);
     const auto steady =
         hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(limb_slope)), hn::Mul(hn::Set(d, kSteadyShare), point.limb));
     // Depth is C/(root - B) or (B + root)/-A (Eq 4), the one that does not cancel.
@@ -162,7 +166,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE PixelFootprint<V> pixel_footprint(D d, const ShadeInput& in, const SurfacePoint<V>& point,
                                              const Vec3<V>& ray, const Length<V>& length) {
     // How far the surface point moves from a column and from a row to the next: dP = k (e - d (N.e)/(N.d)).
-    const Vec3<V> ray_step = splat(d, in.ray_step), along_row = splat(d, in.along_row);
+    const Vec3<V> ray_step = splat(d, in.row->ray_step), along_row = splat(d, in.row->along_row);
     const V most = hn::Mul(hn::Mul(hn::Set(d, 1e3F), point.depth), hn::Mul(length.inverse, point.inverse_length));
     const V inverse = hn::CopySign(hn::Min(hn::Div(point.depth, hn::Abs(point.against)), most), hn::Neg(point.against));
     const V tilt_x = hn::Mul(dot(point.normal, ray_step), inverse),

@@ -1,7 +1,9 @@
 /// Shading, per instruction set: the texturing function, whole pixels, layers, packing.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "ig_core/shading/frame_paint.h"
 #include "ig_core/shading/shade.h"
@@ -56,26 +58,30 @@ void texture_points(benchmark::State& state, std::int64_t target, SineMethod sin
     per_item(state, kColumns);
 }
 
-/// A row of a plane 300 m ahead, every pixel shaded by itself: intersection, normal, terms, light, haze.
-void plane_pixels(benchmark::State& state, std::int64_t target, bool smooth_stretches) {
+/// A row of a plane 300 m ahead, in stretches of so many columns: intersection, normal, terms, light, haze.
+void plane_pixels(benchmark::State& state, std::int64_t target, bool smooth_stretches, int columns) {
     const SimdTarget held(target);
     const Scene scene = textured_scene(static_cast<int>(state.range(0)), 0.02);
     FramePaints paints = make_frame_paints(scene);
     move_textures(scene, {}, 0, {}, paints);
     const FrameLight light = make_frame_light(scene, {});
-    ShadeInput in;
-    in.kind = ShadeInput::Kind::plane;
-    in.smooth_stretches = smooth_stretches;
-    in.count = kColumns;
-    in.most_column = kColumns;
-    in.ray = {-0.5F, 1.0F, 0.1F}, in.ray_step = {1.0F / kColumns, 0, 0}, in.along_row = {0, 0, 1.0F / kColumns};
-    in.normal = {0, -1, 0};
-    in.plane_u = 1.0F / 300;
-    in.paint = &paints.objects[0], in.light = &light;
+    const ShadeRow row{&light, smooth_stretches, false, {1.0F / kColumns, 0, 0}, {0, 0, 1.0F / kColumns}};
+    std::vector<ShadeInput> jobs;
+    for (int column = 0; column < kColumns; column += columns) {
+        ShadeInput& in = jobs.emplace_back();
+        in.kind = ShadeInput::Kind::plane;
+        in.count = std::min(columns, kColumns - column);
+        in.buffer = static_cast<std::uint32_t>(column);
+        in.most_column = static_cast<float>(in.count);
+        in.ray = {-0.5F + static_cast<float>(column) / kColumns, 1.0F, 0.1F};
+        in.normal = {0, -1, 0};
+        in.plane_u = 1.0F / 300;
+        in.paint = &paints.objects[0], in.row = &row;
+    }
     ShadeBuffer buffer;
     buffer.resize(kColumns + kShadePadding);
     for (auto _ : state) {
-        shade(in, buffer, 0);
+        shade(jobs, buffer);
         benchmark::DoNotOptimize(buffer.red.data());
     }
     per_item(state, kColumns);
@@ -140,8 +146,9 @@ const bool kRegistered = [] {
         add("texture/parabola", texture_points, SineMethod::parabola)->ArgName("terms")->Arg(7);
         add("texture/table", texture_points, SineMethod::table)->ArgName("terms")->Arg(7);
         add("texture/library", texture_points, SineMethod::library)->ArgName("terms")->Arg(7);
-        add("pixel/each", plane_pixels, false)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);
-        add("pixel/smooth_stretches", plane_pixels, true)->ArgName("terms")->Arg(3);
+        add("pixel/each", plane_pixels, false, kColumns)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);
+        add("pixel/stretches_of_8", plane_pixels, false, 8)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);
+        add("pixel/smooth_stretches", plane_pixels, true, kColumns)->ArgName("terms")->Arg(3);
         add("layers/whole", whole_layers)->ArgName("layers")->Arg(1)->Arg(3);
         add("layers/partial_pixel", partial_pixels);
         add("pack_srgb8", packing);

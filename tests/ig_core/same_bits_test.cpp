@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/ig_core/painted_scene.h"
@@ -53,6 +54,34 @@ TEST_CASE("a frame does not depend on the frames before it") {
         busy.ground_truth(view_of_trial(trial + 200, 64, 48));
         CAPTURE(trial);
         CHECK(render(busy, view, environment) == expected);
+    }
+}
+
+TEST_CASE("in which order a scene has its textures makes no difference") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(6, 2); ++trial) {
+        CAPTURE(trial);
+        Randomness random(trial);
+        Scene scene = painted_scene(random, 40);
+        // As many as objects, so that many of one row are shaded by turns.
+        const Texture pattern = scene.textures.at(0);
+        for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+            scene.objects[i].paint.texture = static_cast<std::uint32_t>(scene.textures.size());
+            scene.textures.push_back(pattern);
+            for (TextureTerm& term : scene.textures.back().terms) term.phase += random.between(0, 6);
+        }
+        const View view = view_of_trial(trial);
+        const Picture expected = render(scene, view);
+        const auto last = static_cast<std::uint32_t>(scene.textures.size() - 1);
+        std::reverse(scene.textures.begin(), scene.textures.end());
+        const auto reversed = [&](Paint& paint) {
+            if (paint.texture) paint.texture = last - *paint.texture;
+        };
+        for (Object& object : scene.objects) reversed(object.paint);
+        for (CloudDeck& deck : scene.cloud_decks) reversed(deck.paint);
+        for (GroundPolygon& polygon : scene.ground_polygons) reversed(polygon.paint);
+        if (scene.ground) reversed(scene.ground->paint);
+        CHECK(render(scene, view) == expected);
     }
 }
 

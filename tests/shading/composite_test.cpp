@@ -182,3 +182,43 @@ TEST_CASE("every pixel of a run is the sum of its cells, for any number of sub-s
         }
     });
 }
+
+TEST_CASE("layers side by side before an opaque whole one are the sum of their cells too") {
+    CAPTURE(seed());
+    on_every_target([] {
+        for (int trial = 0; trial < trials(300); ++trial) {
+            CAPTURE(trial);
+            Randomness random(trial);
+            const int first = random.below(4), columns = 1 + random.below(4),
+                      lines = 1 + random.below(kMaxSubScanLines), in_front = random.below(5);
+            std::vector<Sample> samples;
+            std::vector<RowSpan> spans;
+            // Lines beyond the row's hold whatever was there before.
+            std::vector<std::pair<double, double>> ends(kMaxSubScanLines, {std::nan(""), std::nan("")});
+            std::fill_n(ends.begin(), lines, std::pair(-2.0, random.between(-1, 8)));
+            for (int i = 0; i <= in_front; ++i) {
+                for (int c = 0; c < columns; ++c)
+                    samples.push_back(
+                        {static_cast<float>(random.between(0, 1)), 0, 0,
+                         i == in_front || random.chance(0.5) ? 1.0F : static_cast<float>(random.between(0, 1))});
+                for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line) {
+                    const double from = ends[line].second + (random.chance(0.3) ? random.between(0, 1) : 0.0);
+                    ends[line] = {from, from + (random.chance(0.2) ? 0.0 : random.between(0, 3))};
+                    if (i == in_front) ends[line] = {0, 8};
+                }
+                spans.push_back(span_of(ends));
+            }
+            std::vector<PartialLayer> layers;
+            for (std::size_t i = 0; i < spans.size(); ++i)
+                layers.push_back({static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(columns),
+                                  i + 1 == spans.size() ? 1U : 0U, &spans[i]});
+            const ShadeBuffer buffer = buffer_of(samples);
+            ShadeBuffer row;
+            row.resize(8 + kShadePadding);
+            composite_before_whole(buffer, layers, first, first + columns, lines, row);
+            for (int column = first; column < first + columns; ++column)
+                CHECK(row.red[static_cast<std::size_t>(column)] ==
+                      Approx(red_by_cells(buffer, layers, column, first, lines)).margin(1e-6));
+        }
+    });
+}

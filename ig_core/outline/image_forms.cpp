@@ -123,18 +123,16 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
         if (const double at_eye = solid.plane_at(side, eye); at_eye < 0.0)
             out.flat_side = EyePlane{covector(side.normal), side.offset, at_eye, 0, false};
 
-    out.plane_count = out.first_face = 0;
+    out.planes.clear();
+    out.first_face = 0;
     for (const SolidPlane& plane : solid.planes) {
-        if (plane.surface == 0) out.first_face = out.plane_count + 1;
-        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            covector(plane.normal),     plane.offset + along * glm::dot(plane.normal, solid.axis),
-            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
-            plane.surface != 0,         to_float(-plane.normal)};
+        if (plane.surface == 0) out.first_face = static_cast<int>(out.planes.size()) + 1;
+        out.planes.push_back({covector(plane.normal), plane.offset + along * glm::dot(plane.normal, solid.axis),
+                              solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
+                              plane.surface != 0, to_float(-plane.normal)});
     }
-    if (near_plane)
-        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};
-    if (infinity) out.planes[static_cast<std::size_t>(out.plane_count++)] = {{0, 0, 0}, 1.0, 1.0, kNoSurface, true};
+    if (near_plane) out.planes.push_back({{0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true});
+    if (infinity) out.planes.push_back({{0, 0, 0}, 1.0, 1.0, kNoSurface, true});
     if (set_up == SetUp::textbook) set_textbook_forms<double>(out);
     if (set_up == SetUp::textbook_single) set_textbook_forms<float>(out);
 }
@@ -200,8 +198,7 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
 
 bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
     int kept = 1;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         // No way out: none is foreseen.
         kept &= static_cast<int>(!loses(plane, p.x, p.y, p.z)) | static_cast<int>(&plane == own);
     }
@@ -212,8 +209,7 @@ int surface_at(const EyeSolid& e, double xi, double zeta) {
     const glm::dvec3 d(xi, 1.0, zeta);
     double from = 0.0, to = kInfinity;
     int surface = kNoSurface;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         const double slope = glm::dot(plane.normal, d);
         if (slope > 0.0) {
             const double k = -plane.at_eye / slope;

@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "ig_core/geometry/symmetric.h"
 #include "ig_core/quality.h"
@@ -98,11 +99,10 @@ struct EyeSolid {
     Sym3 m;
     Sym3 limb;  ///< L
     SceneQuadric in_scene;
-    int plane_count = 0;
     int first_face = 0;                 ///< index in `planes` of surface 1's, which the file's others follow
     std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
-    std::array<EyePlane, kMaxEyePlanes> planes;
-    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
+    std::vector<EyePlane> planes;       ///< at most kMaxEyePlanes
+    ScenePoint scene_anchor;            ///< Solid's, or another on its axis
     SetUp set_up = SetUp::anchored;
     glm::dvec3 anchor{0.0};
     Sym3 adjugate;

@@ -49,8 +49,8 @@ class Candidates {
     void add_kept(Outline& out) {
         const EyeSolid& e = out.solid;
         std::fill_n(losses_.begin(), count_, 0.0);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i)
-            for (std::size_t c = 0; c < count_; ++c) losses_[c] += loses(e.planes[i], x_[c], y_[c], z_[c]) ? 1.0 : 0.0;
+        for (const EyePlane& plane : e.planes)
+            for (std::size_t c = 0; c < count_; ++c) losses_[c] += loses(plane, x_[c], y_[c], z_[c]) ? 1.0 : 0.0;
         for (std::size_t c = 0; c < count_; ++c) {
             const Place& place = places_[c];
             const bool lost_by_own =
@@ -144,7 +144,7 @@ void add_edge(std::size_t i, std::size_t j, double zeta, double other_zeta, Outl
 /// Of a solid without end every line in which two planes meet is taken for an edge, and of no length known.
 void add_endless_lines(Outline& out) {
     const EyeSolid& e = out.solid;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i)
+    for (std::size_t i = 0; i < e.planes.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (e.planes[i].cuts && e.planes[j].cuts) add_edge(i, j, -kInfinity, kInfinity, out);
 }
@@ -153,7 +153,7 @@ void add_endless_lines(Outline& out) {
 
 void find_boundaries(const Solid& solid, const glm::dmat3& eye_from_scene, Outline& out) {
     const EyeSolid& e = out.solid;
-    const auto plane_count = static_cast<std::size_t>(e.plane_count);
+    const auto plane_count = e.planes.size();
     CurveOf curve_of;
     for (std::size_t i = 0; i < plane_count; ++i) {
         if (!e.planes[i].cuts) continue;
@@ -193,7 +193,7 @@ void find_key_points(Outline& out) {
         candidates.add(limb_depth(e, xi, zeta), {xi, zeta, KeyPoint::Kind::limb_extremum}, 0, 0, Candidates::kNoPlane);
     }
     std::size_t curve = 1;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i) {
+    for (std::size_t i = 0; i < e.planes.size(); ++i) {
         if (!e.planes[i].cuts) continue;
         add_curve_extrema(out, curve, i, candidates);
         add_contacts(out, curve, i, candidates);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/key_points.h"
 #include "ig_core/outline/row_order.h"
@@ -128,6 +129,13 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 
 void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
                   const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up) {
+    // What lies outside solid and outline is on its way while the solid is carried into eye space; of the outline's own
+    // lists, as much as the last frame filled.
+    fetch(std::span(solid.planes)), fetch(std::span(solid.vertices)), fetch(std::span(solid.edges));
+    fetch(std::span<const EyePlane>(out.solid.planes));
+    fetch(std::span<const ZBand>(out.bands)), fetch(std::span<const Change>(out.changes));
+    fetch(std::span<const Curve>(out.curves)), fetch(std::span<const EdgeLine>(out.lines));
+    fetch(std::span<const KeyPoint>(out.key_points));
     out.object = object;
     out.lines.clear();
     out.key_points.clear();

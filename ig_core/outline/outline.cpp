@@ -56,10 +56,15 @@ void find_bands(const RowGrid& rows, Outline& out) {
     };
     std::array<double, kMaxKeyPoints> memory;
     const std::span<const double> heights = sort_heights(out.key_points, memory);
+    // No branch could foresee which bands hold rows: each is written down, and counted if it does.
+    out.bands.resize(heights.size());
+    std::size_t count = 0;
     for (std::size_t i = 1; i < heights.size(); ++i) {
-        const double from = std::max(heights[i - 1], z_low), to = std::min(heights[i], z_high);
-        if (to > from && holds_row(from, to)) out.bands.push_back({from, to, 0, 0});
+        const double from = std::clamp(heights[i - 1], z_low, z_high), to = std::clamp(heights[i], z_low, z_high);
+        out.bands[count].zeta_from = from, out.bands[count].zeta_to = to;
+        count += static_cast<std::size_t>(to > from) & static_cast<std::size_t>(holds_row(from, to));
     }
+    out.bands.resize(count);
 }
 
 double middle(const ZBand& band) { return 0.5 * (band.zeta_from + band.zeta_to); }
@@ -163,12 +168,13 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
         out.curves[0].rows = {out.zeta_from, out.zeta_to};
         return;
     }
-    find_boundaries(solid, eye_from_scene, out);
+    CurveLanes curves;
+    find_boundaries(solid, eye_from_scene, out, curves);
     if (out.direct) {
         out.zeta_from = -kInfinity, out.zeta_to = kInfinity;
         return;
     }
-    find_key_points(out);
+    find_key_points(curves, out);
     find_bands(rows, out);
     if (solid.ellipsoid && !near_plane && set_up == SetUp::anchored)
         tell_bands(out);

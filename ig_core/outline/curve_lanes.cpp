@@ -111,9 +111,6 @@ HWY_INLINE Roots real_roots(Number a, Number b, Number c) {
     return {q / a, c / q};
 }
 
-/// Limb points are where the ray touches the quadric, k = -B/A.
-HWY_INLINE Number limb_depth(const EyeSolid& e, const Vector& d) { return -dot(e.v, d) / value(e.m, d); }
-
 /// As loses and faces_eye say of one point.
 HWY_INLINE Mask loses(const EyePlane& plane, const Vector& p) {
     const Number at = dot(plane.normal, p);
@@ -139,6 +136,7 @@ HWY_INLINE void store(const EyeSolid& e, Number own_plane, const Vector& ray, Nu
     either(seen, ray.z, std::numeric_limits<double>::quiet_NaN()).store(point.zeta, at);
 }
 
+/// The limb's depth is that of contacts, the others' that of their plane.
 HWY_INLINE void find_extrema(const EyeSolid& e, const RowConic& limb, std::size_t at, CurveLanes& curves) {
     const D d;
     const Mask is_limb = hn::Eq(hn::Iota(d, static_cast<double>(at)), hn::Zero(d));
@@ -155,13 +153,14 @@ HWY_INLINE void find_extrema(const EyeSolid& e, const RowConic& limb, std::size_
     const Mask always = hn::Or(is_limb, hn::Le(at_eye.v, hn::Zero(d)));
     const auto put = [&](Number zeta, CurveLanes::Point& point) HWY_ATTR {
         const Vector ray(-(beta0 + zeta * beta1) / alpha, 1.0, zeta);
-        const Number k = either(is_limb, limb_depth(e, ray), -at_eye / dot(n, ray));
+        const Number k = -either(is_limb, dot(e.v, ray), at_eye) / either(is_limb, value(e.m, ray), dot(n, ray));
         store(e, own_plane, ray, k, hn::Or(always, faces_eye(e, k * ray)), at, point);
     };
     put(zetas.one, curves.extrema[0]), put(zetas.other, curves.extrema[1]);
 }
 
-/// Along the visibility line xi = start + slope zeta, or zeta = start + slope xi, whichever is less steep.
+/// Limb points are where the ray touches the quadric, k = -B/A. Along the visibility line xi = start + slope zeta, or
+/// zeta = start + slope xi, whichever is less steep.
 HWY_INLINE void find_contacts(const EyeSolid& e, std::size_t at, CurveLanes& curves) {
     const Sym3& l = e.limb;
     const Vector line(curves.visibility_line, at);
@@ -177,7 +176,7 @@ HWY_INLINE void find_contacts(const EyeSolid& e, std::size_t at, CurveLanes& cur
     const auto put = [&](Number t, CurveLanes::Point& point) HWY_ATTR {
         const Number on_line = start + slope * t;
         const Vector ray(either(by_zeta, on_line, t), 1.0, either(by_zeta, t, on_line));
-        const Number k = limb_depth(e, ray);
+        const Number k = -dot(e.v, ray) / value(e.m, ray);
         store(e, own_plane, ray, k, hn::FirstN(D(), hn::Lanes(D())), at, point);
     };
     put(along.one, curves.contacts[0]), put(along.other, curves.contacts[1]);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <thread>
 
+#include "ig_core/geometry/fetch.h"
+
 namespace quadrig {
 namespace {
 
@@ -97,8 +99,11 @@ const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseco
     const std::uint32_t index = object(place), slot = slots_[index];
     Outline& outline = outlines_[slot];
     const std::atomic_ref state(states_[slot]);
-    OutlineState seen = OutlineState::none;
-    if (state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
+    OutlineState seen = state.load(std::memory_order_acquire);
+    if (seen == OutlineState::made) return outline;  // on all rows but the first: nothing is locked then
+    fetch(solids_[index]), fetch(outline);
+    if (seen == OutlineState::none &&
+        state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
         const auto start = std::chrono::steady_clock::now();
         const Sight& s = sight_;
         make_outline(solids_[index], bounds_[index], index, s.eye, s.eye_from_scene, s.rows, outline, s.set_up);

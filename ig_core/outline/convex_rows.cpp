@@ -23,7 +23,7 @@ ConvexRows::ConvexRows(const Outline& outline) {
     shape_.limb_chord = chord_of(outline.curves[0]);
     shape_.limb = e.limb;
     std::array<std::size_t, kMaxPlanes> face_of;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(e.plane_count); ++i) {
+    for (std::size_t i = 0; i < e.planes.size(); ++i) {
         const double at_eye = e.planes[i].at_eye;
         edge_on_ = edge_on_ || at_eye == 0.0;
         const bool faces_eye = at_eye < 0.0;

@@ -104,8 +104,7 @@ std::vector<Stroke> find_strokes(const Outline& outline, const std::vector<SeenB
                        })});
     std::size_t curve = 0;
     std::vector<const EyePlane*> planes;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         if (!plane.cuts) continue;
         ++curve;
         // Of the bounds that are not the file's (near, infinity) only what shows.

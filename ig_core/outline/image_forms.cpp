@@ -34,39 +34,6 @@ SceneQuadric in_scene(const Solid& solid, const glm::dvec3& eye_from_anchor) {
             solid.centre_value > 0.0 ? static_cast<float>(1.0 / solid.centre_value) : 0.0F};
 }
 
-/// intersection_curve_on_rows with the anchor on the Y axis, as it is in a sheared space: written out, as many of its
-/// terms are zero there, which saves four tenths of the time.
-RowConic curve_about_axis(const EyeSolid& e, const EyePlane& plane) {
-    const Sym3& m = e.m;
-    const glm::dvec3 &n = plane.normal, &w = e.w;
-    const double b = plane.at_eye, a = e.anchor.y;
-    // The ray meets plane j at -r / (n.d) about the anchor, r = (b xi, g.d, b zeta).
-    const glm::dvec3 g(a * n.x, plane.local_offset, a * n.z);
-    const glm::dvec3 wr(w.x * b + w.y * g.x, w.y * g.y, w.y * g.z + w.z * b);  // w.r
-    const double y_of_x = m.xy * b + m.yy * g.x, y_of_z = m.yy * g.z + m.yz * b, z_of_x = m.xz * b + m.yz * g.x;
-    RowConic conic;
-    conic.alpha = b * (m.xx * b + m.xy * g.x) + g.x * y_of_x + n.x * (e.c * n.x - 2.0 * wr.x);
-    conic.beta = {g.y * y_of_x + e.c * n.x * n.y - n.x * wr.y - n.y * wr.x,
-                  g.z * y_of_x + b * z_of_x + e.c * n.x * n.z - n.x * wr.z - n.z * wr.x};
-    conic.gamma = {g.y * m.yy * g.y + n.y * (e.c * n.y - 2.0 * wr.y),
-                   2.0 * (g.y * y_of_z + e.c * n.y * n.z - n.y * wr.z - n.z * wr.y),
-                   g.z * y_of_z + b * (m.yz * g.z + m.zz * b) + n.z * (e.c * n.z - 2.0 * wr.z)};
-    // Row and plane meet in lines of direction u0 + zeta u1 and moment t0 + zeta t1.
-    const glm::dvec3 t1(g.x, -b, g.z);  // t0 = (0, 0, g.y), u0 = (n.y, -n.x, 0), u1 = (n.z, 0, -n.x)
-    const glm::dvec3 mx(m.xx, m.xy, m.xz), my(m.xy, m.yy, m.yz), mz(m.xz, m.yz, m.zz);
-    const glm::dvec3 mu0 = n.y * mx - n.x * my, mu1 = n.z * mx - n.x * mz;
-    const glm::dvec3 adjugate_t1 = e.adjugate * t1, wt1 = glm::cross(w, t1);
-    const double wu0 = w.x * n.y - w.y * n.x, wu1 = w.x * n.z - w.z * n.x, b2 = b * b;
-    conic.discriminant = {
-        b2 * (-g.y * g.y * e.adjugate.zz - e.c * (n.y * mu0.x - n.x * mu0.y) + wu0 * wu0 +
-              2.0 * g.y * (w.y * mu0.x - w.x * mu0.y)),
-        2.0 * b2 *
-            (-g.y * adjugate_t1.z - e.c * (n.y * mu1.x - n.x * mu1.y) + wu0 * wu1 + glm::dot(mu0, wt1) +
-             g.y * (w.y * mu1.x - w.x * mu1.y)),
-        b2 * (-glm::dot(t1, adjugate_t1) - e.c * (n.z * mu1.x - n.x * mu1.z) + wu1 * wu1 + 2.0 * glm::dot(mu1, wt1))};
-    return conic;
-}
-
 }  // namespace
 
 bool misses_row(const RowConic& conic, double zeta) {
@@ -123,18 +90,16 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
         if (const double at_eye = solid.plane_at(side, eye); at_eye < 0.0)
             out.flat_side = EyePlane{covector(side.normal), side.offset, at_eye, 0, false};
 
-    out.plane_count = out.first_face = 0;
+    out.planes.clear();
+    out.first_face = 0;
     for (const SolidPlane& plane : solid.planes) {
-        if (plane.surface == 0) out.first_face = out.plane_count + 1;
-        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            covector(plane.normal),     plane.offset + along * glm::dot(plane.normal, solid.axis),
-            solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
-            plane.surface != 0,         to_float(-plane.normal)};
+        if (plane.surface == 0) out.first_face = static_cast<int>(out.planes.size()) + 1;
+        out.planes.push_back({covector(plane.normal), plane.offset + along * glm::dot(plane.normal, solid.axis),
+                              solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
+                              plane.surface != 0, to_float(-plane.normal)});
     }
-    if (near_plane)
-        out.planes[static_cast<std::size_t>(out.plane_count++)] = {
-            {0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true};
-    if (infinity) out.planes[static_cast<std::size_t>(out.plane_count++)] = {{0, 0, 0}, 1.0, 1.0, kNoSurface, true};
+    if (near_plane) out.planes.push_back({{0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true});
+    if (infinity) out.planes.push_back({{0, 0, 0}, 1.0, 1.0, kNoSurface, true});
     if (set_up == SetUp::textbook) set_textbook_forms<double>(out);
     if (set_up == SetUp::textbook_single) set_textbook_forms<float>(out);
 }
@@ -153,7 +118,6 @@ RowConic limb_on_rows(const EyeSolid& e) {
 RowConic intersection_curve_on_rows(const EyeSolid& e, const EyePlane& plane) {
     if (e.set_up == SetUp::textbook) return textbook_intersection_curve_on_rows<double>(e, plane);
     if (e.set_up == SetUp::textbook_single) return textbook_intersection_curve_on_rows<float>(e, plane);
-    if (e.anchor.x == 0.0 && e.anchor.z == 0.0) return curve_about_axis(e, plane);
     const glm::dvec3 &n = plane.normal, &a = e.anchor;
     const double bl = plane.local_offset;
     // The ray meets plane j at q = y / (n.d) about the anchor, y = n x (d x a) - P(a) d: three images of the axes.
@@ -198,12 +162,16 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
     return j.local_offset * i.normal - i.local_offset * j.normal - glm::cross(e.anchor, glm::cross(i.normal, j.normal));
 }
 
+bool faces_eye(const EyeSolid& e, const glm::dvec3& p) {
+    const double curved = value(e.m, p), straight = glm::dot(e.v, p);
+    return curved + straight <= kKeeping * (std::abs(curved) + std::abs(straight));
+}
+
 bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
     int kept = 1;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         // No way out: none is foreseen.
-        kept &= static_cast<int>(!loses(plane, p.x, p.y, p.z)) | static_cast<int>(&plane == own);
+        kept &= static_cast<int>(!loses(plane, p)) | static_cast<int>(&plane == own);
     }
     return kept != 0;
 }
@@ -212,8 +180,7 @@ int surface_at(const EyeSolid& e, double xi, double zeta) {
     const glm::dvec3 d(xi, 1.0, zeta);
     double from = 0.0, to = kInfinity;
     int surface = kNoSurface;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         const double slope = glm::dot(plane.normal, d);
         if (slope > 0.0) {
             const double k = -plane.at_eye / slope;

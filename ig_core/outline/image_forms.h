@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "ig_core/geometry/symmetric.h"
 #include "ig_core/quality.h"
@@ -98,11 +99,10 @@ struct EyeSolid {
     Sym3 m;
     Sym3 limb;  ///< L
     SceneQuadric in_scene;
-    int plane_count = 0;
     int first_face = 0;                 ///< index in `planes` of surface 1's, which the file's others follow
     std::optional<EyePlane> flat_side;  ///< the one of Solid::flat_sides that faces the eye: all of the quadric seen
-    std::array<EyePlane, kMaxEyePlanes> planes;
-    ScenePoint scene_anchor;  ///< Solid's, or another on its axis
+    std::vector<EyePlane> planes;       ///< at most kMaxEyePlanes
+    ScenePoint scene_anchor;            ///< Solid's, or another on its axis
     SetUp set_up = SetUp::anchored;
     glm::dvec3 anchor{0.0};
     Sym3 adjugate;
@@ -129,13 +129,15 @@ RowConic intersection_curve_on_rows(const EyeSolid& solid, const EyePlane& plane
 glm::dvec3 visibility_line(const EyeSolid& solid, const EyePlane& plane);
 glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const EyePlane& j);
 
-/// Whether a plane takes a point of the sheared eye space away. A point kept in vain costs one more question; one lost
-/// costs a wrong picture: the tolerance errs towards keeping it.
-inline bool loses(const EyePlane& plane, double x, double y, double z) {
-    constexpr double kTolerance = 1e-6;
-    const double at = plane.normal.x * x + plane.normal.y * y + plane.normal.z * z;
-    return at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye)) < 0.0;
+/// Relative to what is summed up: a point kept in vain costs one more question, one lost costs a wrong picture.
+inline constexpr double kKeeping = 1e-6;
+/// Whether a plane takes a point of the sheared eye space away, by more than kKeeping.
+inline bool loses(const EyePlane& plane, const glm::dvec3& p) {
+    const double at = glm::dot(plane.normal, p);
+    return at + plane.at_eye + kKeeping * (std::abs(at) + std::abs(plane.at_eye)) < 0.0;
 }
+/// Whether the quadric through a point is entered there by the ray from the eye, p'Mp + v.p <= 0, to within kKeeping.
+bool faces_eye(const EyeSolid& solid, const glm::dvec3& point);
 /// Whether every plane but `own` keeps it.
 bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
 

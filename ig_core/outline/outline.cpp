@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/key_points.h"
 #include "ig_core/outline/row_order.h"
@@ -55,10 +56,15 @@ void find_bands(const RowGrid& rows, Outline& out) {
     };
     std::array<double, kMaxKeyPoints> memory;
     const std::span<const double> heights = sort_heights(out.key_points, memory);
+    // No branch could foresee which bands hold rows: each is written down, and counted if it does.
+    out.bands.resize(heights.size());
+    std::size_t count = 0;
     for (std::size_t i = 1; i < heights.size(); ++i) {
-        const double from = std::max(heights[i - 1], z_low), to = std::min(heights[i], z_high);
-        if (to > from && holds_row(from, to)) out.bands.push_back({from, to, 0, 0});
+        const double from = std::clamp(heights[i - 1], z_low, z_high), to = std::clamp(heights[i], z_low, z_high);
+        out.bands[count].zeta_from = from, out.bands[count].zeta_to = to;
+        count += static_cast<std::size_t>(to > from) & static_cast<std::size_t>(holds_row(from, to));
     }
+    out.bands.resize(count);
 }
 
 double middle(const ZBand& band) { return 0.5 * (band.zeta_from + band.zeta_to); }
@@ -128,6 +134,13 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 
 void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t object, const ScenePoint& eye,
                   const glm::dmat3& eye_from_scene, const RowGrid& rows, Outline& out, SetUp set_up) {
+    // What lies outside solid and outline is on its way while the solid is carried into eye space; of the outline's own
+    // lists, as much as the last frame filled.
+    fetch(std::span(solid.planes)), fetch(std::span(solid.vertices)), fetch(std::span(solid.edges));
+    fetch(std::span<const EyePlane>(out.solid.planes));
+    fetch(std::span<const ZBand>(out.bands)), fetch(std::span<const Change>(out.changes));
+    fetch(std::span<const Curve>(out.curves)), fetch(std::span<const EdgeLine>(out.lines));
+    fetch(std::span<const KeyPoint>(out.key_points));
     out.object = object;
     out.lines.clear();
     out.key_points.clear();
@@ -155,12 +168,13 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
         out.curves[0].rows = {out.zeta_from, out.zeta_to};
         return;
     }
-    find_boundaries(solid, eye_from_scene, out);
+    CurveLanes curves;
+    find_boundaries(solid, eye_from_scene, out, curves);
     if (out.direct) {
         out.zeta_from = -kInfinity, out.zeta_to = kInfinity;
         return;
     }
-    find_key_points(out);
+    find_key_points(curves, out);
     find_bands(rows, out);
     if (solid.ellipsoid && !near_plane && set_up == SetUp::anchored)
         tell_bands(out);

@@ -39,8 +39,7 @@ std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Ca
         return kept(d, -glm::dot(e.v, d), value(e.m, d), nullptr);
     });
     std::uint16_t curve = 1;
-    for (int i = 0; i < e.plane_count; ++i) {
-        const EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (const EyePlane& plane : e.planes) {
         if (!plane.cuts) continue;
         add_roots(curve++, [&](double xi) {
             const glm::dvec3 d(xi, 1.0, zeta);

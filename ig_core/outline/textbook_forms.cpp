@@ -48,8 +48,7 @@ void set_textbook_forms(EyeSolid& e) {
     for (std::size_t k = 0; k < kEntries.size(); ++k)
         limb[k] = v[kEntries[k][0]] * v[kEntries[k][1]] - s * m[k];  // Eq 6
     e.m = widened(m), e.v = glm::dvec3(v), e.s = s, e.limb = widened(limb);
-    for (int i = 0; i < e.plane_count; ++i) {
-        EyePlane& plane = e.planes[static_cast<std::size_t>(i)];
+    for (EyePlane& plane : e.planes) {
         const Vector<Real> n(plane.normal);
         plane.normal = glm::dvec3(n);
         plane.at_eye = Real(plane.local_offset) - glm::dot(n, a);

@@ -61,7 +61,7 @@ TEST_CASE("rows told from edges and curves are the rows solved by themselves, an
         const std::int64_t target = targets[static_cast<std::size_t>(trial) % targets.size()];
         const SimdTarget held(target);
         CAPTURE(trial, target);
-        if (outline.solid.plane_count == static_cast<int>(object.planes.size()))
+        if (outline.solid.planes.size() == object.planes.size())
             compare_rows(outline, 1 + static_cast<std::size_t>(random.below(kRowsTogether)), tally);
     }
     CHECK(tally.rows > 3000 * trials(100) / 100);

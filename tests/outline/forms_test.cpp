@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "ig_core/outline/curve_lanes.h"
 #include "tests/ig_core/random_objects.h"
+#include "tests/ig_core/simd_targets.h"
 #include "tests/outline/eye_forms.h"
 
 using namespace quadrig;
@@ -42,6 +44,23 @@ const EyePlane& plane(const EyeSolid& solid, std::size_t j) { return solid.plane
 /// What the forms of well-conditioned cases are good for.
 constexpr double kRounding = 1e-11;
 
+/// Whether a row conic's discriminant is beta^2 - alpha gamma of the form that it stands for.
+bool has_discriminant(const RowConic& conic, const Real33& f, Real zeta) {
+    const Real scale = inner(full(conic), f) / inner(f, f);
+    const Real beta = f[0][1] + zeta * f[0][2];
+    const Real gamma = f[1][1] + zeta * (2 * f[1][2] + zeta * f[2][2]);
+    const Real expected = scale * scale * (beta * beta - f[0][0] * gamma);
+    const Real size = scale * scale * inner(f, f) * (1 + zeta * zeta);
+    return std::abs(conic.discriminant_at(static_cast<double>(zeta)) - expected) < kRounding * size;
+}
+
+CurveLanes lanes_of(const EyeSolid& solid) {
+    CurveLanes curves;
+    for (std::size_t j = 0; j < solid.planes.size(); ++j)
+        if (solid.planes[j].cuts) curves.add(j, solid.planes[j]);
+    return curves;
+}
+
 Real3 random_ray(Randomness& random) { return {random.between(-2, 2), 1, random.between(-2, 2)}; }
 
 }  // namespace
@@ -79,20 +98,69 @@ TEST_CASE("a row conic's discriminant is beta^2 - alpha gamma") {
         const Sight sight = random_sight(trial);
         Randomness random(trial);
         const Real zeta = random.between(-2, 2);
-        const auto check = [&](const RowConic& conic, const Real33& f) {
-            const Real scale = inner(full(conic), f) / inner(f, f);
-            const Real beta = f[0][1] + zeta * f[0][2];
-            const Real gamma = f[1][1] + zeta * (2 * f[1][2] + zeta * f[2][2]);
-            const Real expected = scale * scale * (beta * beta - f[0][0] * gamma);
-            const Real size = scale * scale * inner(f, f) * (1 + zeta * zeta);
-            REQUIRE(std::abs(conic.discriminant_at(static_cast<double>(zeta)) - expected) < kRounding * size);
-        };
         CAPTURE(trial);
-        check(limb_on_rows(sight.solid), sight.forms.limb());
+        REQUIRE(has_discriminant(limb_on_rows(sight.solid), sight.forms.limb(), zeta));
         for (std::size_t j = 0; j < sight.forms.planes.size(); ++j)
-            check(intersection_curve_on_rows(sight.solid, plane(sight.solid, j)),
-                  sight.forms.intersection_curve(sight.forms.planes[j]));
+            REQUIRE(has_discriminant(intersection_curve_on_rows(sight.solid, plane(sight.solid, j)),
+                                     sight.forms.intersection_curve(sight.forms.planes[j]), zeta));
     }
+}
+
+TEST_CASE("curves of all planes at once are the table's formulas, too, on every instruction set") {
+    CAPTURE(seed());
+    const std::vector<std::int64_t> targets = simd_targets();
+    long checked = 0;
+    for (int trial = 0; trial < trials(2000); ++trial) {
+        const Sight sight = random_sight(trial);
+        if (sight.solid.anchor.x != 0.0 || sight.solid.anchor.z != 0.0) continue;
+        const Real zeta = Randomness(trial).between(-2, 2);
+        const std::int64_t target = targets[static_cast<std::size_t>(trial) % targets.size()];
+        const SimdTarget held(target);
+        CurveLanes curves = lanes_of(sight.solid);
+        find_curves_about_axis(sight.solid, curves);
+        for (std::size_t lane = 1; lane < curves.count; ++lane, ++checked) {
+            const ExactPlane& pj = sight.forms.planes[static_cast<std::size_t>(curves.plane[lane])];
+            const Real33 expected = sight.forms.intersection_curve(pj);
+            CAPTURE(trial, target, lane);
+            REQUIRE(difference_up_to_scale(full(curves.conic(lane)), expected) < kRounding);
+            REQUIRE(has_discriminant(curves.conic(lane), expected, zeta));
+            REQUIRE(difference_up_to_scale(Real3(curves.line(lane)), sight.forms.visibility_line(pj)) < kRounding);
+        }
+    }
+    CHECK(checked > trials(2000));
+}
+
+TEST_CASE("extrema and contacts are the same numbers on every instruction set") {
+    CAPTURE(seed());
+    long points = 0;
+    for (int trial = 0; trial < trials(300); ++trial) {
+        const Sight sight = random_sight(trial);
+        CurveLanes first;
+        for (const std::int64_t target : simd_targets()) {
+            const SimdTarget held(target);
+            CurveLanes curves = lanes_of(sight.solid);
+            for (std::size_t lane = 1; lane < curves.count; ++lane) {
+                const EyePlane& of = plane(sight.solid, static_cast<std::size_t>(curves.plane[lane]));
+                curves.set_curve(lane, intersection_curve_on_rows(sight.solid, of), visibility_line(sight.solid, of));
+            }
+            find_points(sight.solid, limb_on_rows(sight.solid), curves);
+            const auto compare = [&](const CurveLanes::Point& point, const CurveLanes::Point& other, std::size_t lane) {
+                CAPTURE(trial, target, lane);
+                REQUIRE(std::isnan(point.zeta[lane]) == std::isnan(other.zeta[lane]));
+                if (std::isnan(point.zeta[lane])) return;
+                REQUIRE(point.zeta[lane] == other.zeta[lane]);
+                REQUIRE(point.xi[lane] == other.xi[lane]);
+                ++points;
+            };
+            if (first.count == 1) first = curves;
+            for (std::size_t lane = 0; lane < curves.count; ++lane)
+                for (std::size_t i = 0; i < 2; ++i) {
+                    compare(curves.extrema[i], first.extrema[i], lane);
+                    if (lane > 0) compare(curves.contacts[i], first.contacts[i], lane);
+                }
+        }
+    }
+    CHECK(points > 5 * trials(300));
 }
 
 TEST_CASE("intersection curve and limb touch where the visibility line crosses them: s E = V V' - b^2 L") {

@@ -1,5 +1,6 @@
 #include "ig_core/image_generator.h"
 
+#include <hwy/cache_control.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "ig_core/objects_in_view.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
+#include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_cover.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"
@@ -34,6 +36,7 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 struct RowWorker {
     std::array<std::vector<RowSpan>, kStripRows> spans;
     std::array<RowCover, kStripRows> covers;
+    ObjectSpans object;
     RowCover strip_cover;  // what holds on all of the strip's rows
     RowSweep sweep;
     RowShader shader;
@@ -157,22 +160,33 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
         worker.covers[r].clear(rows[r].columns);
     }
     worker.strip_cover.clear(rows[0].columns);
-    for (const std::uint32_t place : objects.on(strip)) {
+    const std::span<const std::uint32_t> on_strip = objects.on(strip);
+    for (std::size_t i = 0; i < on_strip.size(); ++i) {
+        constexpr std::size_t kAhead = 6;
+        const std::uint32_t place = on_strip[i];
+        hwy::Prefetch(&objects.bounds(on_strip[std::min(i + kAhead, on_strip.size() - 1)]));
         const ImageBounds& around = objects.bounds(place);
         const double near_u = around.near_u();
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
         if (worker.strip_cover.hides(columns, near_u)) continue;
         const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;
-        BandPlace band = kHighestBand;
         CoveredColumns on_all_rows{0, rows[0].columns, 1.0 / kNearDepth};
+        ObjectSpans::Rows may_show{0, rows.size()};
+        bool looked_up = false;
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const PixelRow& row = rows[r];
             CoveredColumns covered{0, 0, 0.0};
-            if (row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
+            if (r >= may_show.first && r < may_show.last && row.z[0] >= around.z_from &&
+                row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
                 !worker.covers[r].hides(columns, near_u)) {
+                if (!looked_up) {
+                    worker.object.start(objects.outline(place, worker.outline_time), place, opaque, rows);
+                    may_show = worker.object.that_may_show();
+                    looked_up = true;
+                }
                 std::vector<RowSpan>& spans = worker.spans[r];
                 const std::size_t before = spans.size();
-                add_object_spans(objects.outline(place, worker.outline_time), place, opaque, row, band, spans);
+                if (r >= may_show.first && r < may_show.last) worker.object.add(r, spans);
                 if (opaque && around.in_front()) covered = columns_covered(std::span(spans).subspan(before));
                 worker.covers[r].add(covered.from, covered.to, covered.far_u);
             }

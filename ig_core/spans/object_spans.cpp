@@ -1,5 +1,6 @@
 #include "ig_core/spans/object_spans.h"
 
+#include <hwy/cache_control.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,119 +29,177 @@ Surface surface_of(const Outline& outline, std::uint32_t index, bool opaque, int
 
 std::size_t lines_of(const PixelRow& row) { return static_cast<std::size_t>(row.sub_lines); }
 
+/// Cuts of one object on a row, line by line, gathered by surface.
+class CutsOfRow {
+  public:
+    CutsOfRow(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row,
+              std::vector<RowSpan>& spans)
+        : outline_(outline), index_(index), opaque_(opaque), row_(row), spans_(spans), first_(spans.size()) {}
+
+    void start(std::size_t line) { line_ = line, next_ = first_; }
+    /// Cuts and spans both come from left to right. Columns.
+    void add(double from, double to, int surface) {
+        if (!(to > 0.0 && from < row_.columns)) return;
+        std::size_t at = next_;
+        while (at < spans_.size() &&
+               !(spans_[at].surface.surface == surface && spans_[at].from[line_] == spans_[at].to[line_]))
+            ++at;
+        if (at == spans_.size())
+            empty_span(row_, spans_).surface = surface_of(outline_, index_, opaque_, surface);
+        else
+            next_ = at + 1;
+        spans_[at].from[line_] = from;
+        spans_[at].to[line_] = to;
+    }
+    void finish() {
+        std::size_t kept = first_;
+        for (std::size_t i = first_; i < spans_.size(); ++i)
+            if (fit_columns(row_, spans_[i])) {
+                bound_depth(row_, spans_[i]);
+                if (kept != i) spans_[kept] = spans_[i];
+                ++kept;
+            }
+        spans_.resize(kept);
+    }
+
+  private:
+    const Outline& outline_;
+    std::uint32_t index_;
+    bool opaque_;
+    const PixelRow& row_;
+    std::vector<RowSpan>& spans_;
+    std::size_t first_, next_ = 0, line_ = 0;
+};
+
 }  // namespace
 
 void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, BandPlace& band,
                       std::vector<RowSpan>& spans) {
-    const auto lines = static_cast<std::size_t>(row.sub_lines);
+    const std::size_t lines = lines_of(row);
     const double z0 = outline.solid.z0;
     if (row.z[0] - z0 < outline.zeta_from || row.z[lines - 1] - z0 > outline.zeta_to) return;
     const double scale = 1.0 / row.column_step;
-    const std::size_t first = spans.size();
+    CutsOfRow gathered(outline, index, opaque, row, spans);
     std::array<Cut, kMaxCuts> cuts;
     for (std::size_t line = 0; line < lines; ++line) {
-        const int count = cuts_on_row(outline, row.z[line], band, cuts.data());
-        std::size_t next = first;  // cuts and spans both run from left to right
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-            const double from = (cuts[i].from - row.left) * scale, to = (cuts[i].to - row.left) * scale;
-            if (!(to > 0.0 && from < row.columns)) continue;
-            std::size_t at = next;
-            while (at < spans.size() &&
-                   !(spans[at].surface.surface == cuts[i].surface && spans[at].from[line] == spans[at].to[line]))
-                ++at;
-            if (at == spans.size()) {
-                empty_span(row, spans).surface = surface_of(outline, index, opaque, cuts[i].surface);
-            } else {
-                next = at + 1;
-            }
-            spans[at].from[line] = from;
-            spans[at].to[line] = to;
-        }
+        gathered.start(line);
+        const auto count = static_cast<std::size_t>(cuts_on_row(outline, row.z[line], band, cuts.data()));
+        for (const Cut& cut : std::span(cuts).first(count))
+            gathered.add((cut.from - row.left) * scale, (cut.to - row.left) * scale, cut.surface);
     }
-    std::size_t kept = first;
-    for (std::size_t i = first; i < spans.size(); ++i)
-        if (fit_columns(row, spans[i])) {
-            bound_depth(row, spans[i]);
-            if (kept != i) spans[kept] = spans[i];
-            ++kept;
-        }
-    spans.resize(kept);
+    gathered.finish();
 }
 
 void ObjectSpans::start(const Outline& outline, std::uint32_t index, bool opaque, std::span<const PixelRow> rows) {
-    outline_ = &outline, index_ = index, opaque_ = opaque, rows_ = rows;
+    outline_ = &outline, index_ = index, opaque_ = opaque, rows_ = rows, lines_ = lines_of(rows[0]);
     band_ = kHighestBand;
-    solved_ = {0, 0};
+    for (Run& run : runs_) run.first = run.last = 0;
+    // What the first row will ask for, one after the other.
+    hwy::Prefetch(outline.bands.data());
+    hwy::Prefetch(outline.changes.data());
+    hwy::Prefetch(outline.curves.data());
+    hwy::Prefetch(outline.lines.data());
 }
 
 ObjectSpans::Rows ObjectSpans::that_may_show() const {
     const double z0 = outline_->solid.z0;
     Rows rows{0, rows_.size()};
-    while (rows.first < rows.last && rows_[rows.first].z[lines_of(rows_[0]) - 1] - z0 > outline_->zeta_to) ++rows.first;
+    while (rows.first < rows.last && rows_[rows.first].z[lines_ - 1] - z0 > outline_->zeta_to) ++rows.first;
     while (rows.first < rows.last && rows_[rows.last - 1].z[0] - z0 < outline_->zeta_from) --rows.last;
     return rows;
 }
 
-void ObjectSpans::solve_limb_from(std::size_t row) {
-    const std::size_t lines = lines_of(rows_[row]);
-    const double left = rows_[row].left, scale = 1.0 / rows_[row].column_step;
-    solved_ = {row, std::min(rows_.size(), row + BoundaryLanes::kMaxLines / lines)};
-    lines_.count = (solved_.last - row) * lines;
-    for (std::size_t i = 0; i < lines_.count; ++i) lines_.zeta[i] = rows_[row + i / lines].z[i % lines];
-    if (lines_.columns.size() < kLimbAlone.size()) lines_.columns.resize(kLimbAlone.size());
-    auto &from = lines_.columns[0], &to = lines_.columns[1];
-    limb_on_lines(*outline_, lines_.zeta.data(), lines_.count, from.data(), to.data());
-    for (std::size_t i = 0; i < lines_.count; ++i) {
+void ObjectSpans::solve_limb(Run& run) const {
+    const double left = rows_[0].left, scale = 1.0 / rows_[0].column_step;
+    BoundaryLanes& lines = run.lines;
+    lines.count = std::min(rows_.size() * lines_ - run.first, BoundaryLanes::kMaxLines);
+    for (std::size_t i = 0; i < lines.count; ++i) lines.zeta[i] = z_of(run.first + i);
+    if (lines.columns.size() < kLimbAlone.size()) lines.columns.resize(kLimbAlone.size());
+    auto &from = lines.columns[0], &to = lines.columns[1];
+    limb_on_lines(*outline_, lines.zeta.data(), lines.count, from.data(), to.data());
+    for (std::size_t i = 0; i < lines.count; ++i) {
         from[i] = (from[i] - left) * scale;
         to[i] = (to[i] - left) * scale;
-        lines_.wrong[i] = 0.0;
+        lines.wrong[i] = 0.0;
     }
-    changes_ = kLimbAlone;
+    run.changes = kLimbAlone;
 }
 
-void ObjectSpans::solve_from(std::size_t row) {
-    if (outline_->limb_only) return solve_limb_from(row);
-    const std::size_t lines = lines_of(rows_[row]);
+void ObjectSpans::solve_from(std::size_t line) {
+    newest_ ^= 1;
+    Run& run = runs_[newest_];
+    BoundaryLanes& lines = run.lines;
+    run.first = line;
+    if (outline_->limb_only) {
+        solve_limb(run);
+        run.last = line + lines.count;
+        return;
+    }
     const double z0 = outline_->solid.z0;
-    solved_ = {row, row};
-    lines_.count = 0;
-    const ZBand* band = band_on_row(*outline_, rows_[row].z[0] - z0, band_);
-    if (band == nullptr) return;
+    const std::size_t end = std::min(rows_.size() * lines_, line + BoundaryLanes::kMaxLines);
+    double zeta = z_of(line) - z0;
+    const ZBand* band = band_on_row(*outline_, zeta, band_);
     // A line just where the next band begins belongs to that.
-    while (solved_.last < rows_.size() && rows_[solved_.last].z[lines - 1] - z0 > band->zeta_from &&
-           lines_.count + lines <= BoundaryLanes::kMaxLines) {
-        for (std::size_t i = 0; i < lines; ++i) lines_.zeta[lines_.count++] = rows_[solved_.last].z[i] - z0;
-        ++solved_.last;
-    }
-    if (solved_.last == row) return;
-    boundaries_on_lines(*outline_, *band, {rows_[row].left, 1.0 / rows_[row].column_step}, lines_);
-    changes_ = std::span(outline_->changes).subspan(band->first, band->count);
+    const double next_at = band != nullptr ? band->zeta_from : zeta > outline_->zeta_to ? outline_->zeta_to : zeta;
+    lines.count = 0;
+    do {
+        lines.wrong[lines.count] = 0.0;
+        lines.zeta[lines.count++] = zeta;
+        if (++line == end) break;
+        zeta = z_of(line) - z0;
+    } while (zeta > next_at);
+    run.last = line;
+    run.changes = {};
+    if (band == nullptr) return;
+    boundaries_on_lines(*outline_, *band, {rows_[0].left, 1.0 / rows_[0].column_step}, lines);
+    run.changes = std::span(outline_->changes).subspan(band->first, band->count);
 }
 
-bool ObjectSpans::is_solved(std::size_t row) const {
-    if (row < solved_.first || row >= solved_.last) return false;
-    const std::size_t lines = lines_of(rows_[row]);
-    const auto wrong = lines_.wrong.begin() + static_cast<std::ptrdiff_t>((row - solved_.first) * lines);
-    return std::all_of(wrong, wrong + static_cast<std::ptrdiff_t>(lines), [](double w) { return w == 0.0; });
-}
-
-void ObjectSpans::add(std::size_t r, std::vector<RowSpan>& spans) {
-    const PixelRow& row = rows_[r];
-    if (r >= solved_.last) solve_from(r);
-    if (!is_solved(r)) return add_object_spans(*outline_, index_, opaque_, row, band_, spans);
-    const std::size_t lines = lines_of(row), first = (r - solved_.first) * lines;
-    for (std::size_t i = 0; i + 1 < changes_.size(); ++i) {
-        if (changes_[i].surface == kNoSurface) continue;
+void ObjectSpans::add_from(const Run& run, std::size_t row, std::vector<RowSpan>& spans) const {
+    const std::size_t first = row * lines_ - run.first;
+    for (std::size_t i = 0; i + 1 < run.changes.size(); ++i) {
+        if (run.changes[i].surface == kNoSurface) continue;
         RowSpan& span = spans.emplace_back();
-        std::copy_n(&lines_.columns[i][first], lines, span.from.begin());
-        std::copy_n(&lines_.columns[i + 1][first], lines, span.to.begin());
-        if (fit_columns(row, span)) {
-            span.surface = surface_of(*outline_, index_, opaque_, changes_[i].surface);
-            bound_depth(row, span);
+        if (fit_columns(rows_[row], &run.lines.columns[i][first], &run.lines.columns[i + 1][first], span)) {
+            span.surface = surface_of(*outline_, index_, opaque_, run.changes[i].surface);
+            bound_depth(rows_[row], span);
         } else {
             spans.pop_back();
         }
     }
+}
+
+bool ObjectSpans::add_from_both(std::size_t row, std::vector<RowSpan>& spans) const {
+    const Run &last = runs_[newest_], &before = runs_[newest_ ^ 1];
+    if (row * lines_ < before.first || before.last != last.first) return false;
+    CutsOfRow gathered(*outline_, index_, opaque_, rows_[row], spans);
+    for (std::size_t line = 0; line < lines_; ++line) {
+        const Run& run = row * lines_ + line < last.first ? before : last;
+        const std::size_t lane = row * lines_ + line - run.first;
+        gathered.start(line);
+        for (std::size_t i = 0; i + 1 < run.changes.size(); ++i)
+            if (const double from = run.lines.columns[i][lane], to = run.lines.columns[i + 1][lane];
+                run.changes[i].surface != kNoSurface && from < to)
+                gathered.add(from, to, run.changes[i].surface);
+    }
+    gathered.finish();
+    return true;
+}
+
+void ObjectSpans::add(std::size_t row, std::vector<RowSpan>& spans) {
+    const auto add_alone = [&] { add_object_spans(*outline_, index_, opaque_, rows_[row], band_, spans); };
+    if (outline_->direct) return add_alone();
+    const std::size_t first = row * lines_, last = first + lines_;
+    while (runs_[newest_].last < last) solve_from(std::max(first, runs_[newest_].last));
+    const auto holds = [&](const Run& run) {
+        for (std::size_t line = std::max(first, run.first); line < std::min(last, run.last); ++line)
+            if (run.lines.wrong[line - run.first] != 0.0) return false;
+        return true;
+    };
+    const Run& run = runs_[newest_];
+    if (!holds(run) || !holds(runs_[newest_ ^ 1])) return add_alone();
+    if (first >= run.first) return add_from(run, row, spans);
+    if (!add_from_both(row, spans)) add_alone();
 }
 
 CoveredColumns columns_covered(std::span<const RowSpan> spans) {

@@ -1,6 +1,7 @@
 /// Spans of one object: its cuts on the sub-scan lines of a pixel row, gathered by surface.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -28,18 +29,27 @@ class ObjectSpans {
     void add(std::size_t row, std::vector<RowSpan>& spans);
 
   private:
-    void solve_from(std::size_t row);
-    void solve_limb_from(std::size_t row);
-    [[nodiscard]] bool is_solved(std::size_t row) const;
+    /// Scan lines [first, last) of the strip, all in one z-band, or in none.
+    struct Run {
+        std::size_t first = 0, last = 0;
+        std::span<const Change> changes;
+        BoundaryLanes lines;
+    };
+    void solve_from(std::size_t line);
+    void solve_limb(Run& run) const;
+    void add_from(const Run& run, std::size_t row, std::vector<RowSpan>& spans) const;
+    /// Of a row that the last run begins within; false where that takes more than the last two.
+    bool add_from_both(std::size_t row, std::vector<RowSpan>& spans) const;
+    [[nodiscard]] double z_of(std::size_t line) const { return rows_[line / lines_].z[line % lines_]; }
 
     const Outline* outline_ = nullptr;
     std::uint32_t index_ = 0;
     bool opaque_ = true;
     std::span<const PixelRow> rows_;
+    std::size_t lines_ = 1;  // of a row
     BandPlace band_ = kHighestBand;
-    BoundaryLanes lines_;  // of solved_
-    Rows solved_{0, 0};
-    std::span<const Change> changes_;  // on these
+    std::array<Run, 2> runs_;
+    std::size_t newest_ = 0;
 };
 
 /// Columns [from, to) that a convex object which lies all in front of the near plane covers whole by its spans on a

@@ -45,13 +45,13 @@ double disc_below(double t) {
 
 }  // namespace
 
-bool fit_columns(const PixelRow& row, RowSpan& span) {
+bool fit_columns(const PixelRow& row, const double* line_from, const double* line_to, RowSpan& span) {
     const double width = row.columns;
     double least_from = width, most_from = 0.0, least_to = width, most_to = 0.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
         // Ends may be infinite or NaN-free but far outside: clipping makes them columns of the image.
-        const double from = span.from[i] = std::min(std::max(span.from[i], 0.0), width);
-        const double to = span.to[i] = std::min(std::max(span.to[i], 0.0), width);
+        const double from = span.from[i] = std::min(std::max(line_from[i], 0.0), width);
+        const double to = span.to[i] = std::min(std::max(line_to[i], 0.0), width);
         // A line that misses it leaves no column covered whole. Nothing could foresee which one does: no branch.
         const bool seen = from < to;
         least_from = std::min(least_from, seen ? from : width), most_from = std::max(most_from, seen ? from : width);

@@ -37,8 +37,13 @@ void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, cons
 /// over the line's share of the row, so that all of them together are as bright as the disc is large.
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans);
 
-/// Fits outer and inner columns to the ends on the sub-scan lines, clipped to the image. False if nothing is left.
-bool fit_columns(const PixelRow& row, RowSpan& span);
+/// Gives a span its ends on the sub-scan lines, clipped to the image, and fits outer and inner columns to them. False if
+/// nothing is left.
+bool fit_columns(const PixelRow& row, const double* from, const double* to, RowSpan& span);
+/// The same with the ends it has.
+inline bool fit_columns(const PixelRow& row, RowSpan& span) {
+    return fit_columns(row, span.from.data(), span.to.data(), span);
+}
 
 /// Narrows the bounds of 1/k from the whole object's to the fitted span's own, by its first and last sub-scan line.
 /// (What the lines between could add is less than a sub-scan line high.) What is shallow to begin with is left as it

@@ -37,8 +37,8 @@ void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, cons
 /// over the line's share of the row, so that all of them together are as bright as the disc is large.
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans);
 
-/// Gives a span its ends on the sub-scan lines, clipped to the image, and fits outer and inner columns to them. False if
-/// nothing is left.
+/// Gives a span its ends on the sub-scan lines, clipped to the image, and fits outer and inner columns to them. False
+/// if nothing is left.
 bool fit_columns(const PixelRow& row, const double* from, const double* to, RowSpan& span);
 /// The same with the ends it has.
 inline bool fit_columns(const PixelRow& row, RowSpan& span) {

@@ -160,11 +160,15 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
         worker.covers[r].clear(rows[r].columns);
     }
     worker.strip_cover.clear(rows[0].columns);
+    worker.object.set_rows(rows);
     const std::span<const std::uint32_t> on_strip = objects.on(strip);
     for (std::size_t i = 0; i < on_strip.size(); ++i) {
-        constexpr std::size_t kAhead = 6;
         const std::uint32_t place = on_strip[i];
-        hwy::Prefetch(&objects.bounds(on_strip[std::min(i + kAhead, on_strip.size() - 1)]));
+        // Objects come from all over the scene: what each is first asked is fetched some turns ahead.
+        constexpr std::size_t kTurnsAhead = 6;
+        const std::uint32_t ahead = on_strip[std::min(i + kTurnsAhead, on_strip.size() - 1)];
+        hwy::Prefetch(&objects.bounds(ahead));
+        hwy::Prefetch(&paints.objects[objects.object(ahead)].translucent);
         const ImageBounds& around = objects.bounds(place);
         const double near_u = around.near_u();
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
@@ -180,7 +184,7 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
                 row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
                 !worker.covers[r].hides(columns, near_u)) {
                 if (!looked_up) {
-                    worker.object.start(objects.outline(place, worker.outline_time), place, opaque, rows);
+                    worker.object.start(objects.outline(place, worker.outline_time), place, opaque);
                     may_show = worker.object.that_may_show();
                     looked_up = true;
                 }

@@ -90,8 +90,14 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
     gathered.finish();
 }
 
-void ObjectSpans::start(const Outline& outline, std::uint32_t index, bool opaque, std::span<const PixelRow> rows) {
-    outline_ = &outline, index_ = index, opaque_ = opaque, rows_ = rows, lines_ = lines_of(rows[0]);
+void ObjectSpans::set_rows(std::span<const PixelRow> rows) {
+    rows_ = rows, lines_ = lines_of(rows[0]);
+    z_.clear();
+    for (const PixelRow& row : rows) z_.insert(z_.end(), row.z.begin(), row.z.begin() + row.sub_lines);
+}
+
+void ObjectSpans::start(const Outline& outline, std::uint32_t index, bool opaque) {
+    outline_ = &outline, index_ = index, opaque_ = opaque;
     band_ = kHighestBand;
     for (Run& run : runs_) run.first = run.last = 0;
     // What the first row will ask for, one after the other.
@@ -112,11 +118,10 @@ ObjectSpans::Rows ObjectSpans::that_may_show() const {
 void ObjectSpans::solve_limb(Run& run) const {
     const double left = rows_[0].left, scale = 1.0 / rows_[0].column_step;
     BoundaryLanes& lines = run.lines;
-    lines.count = std::min(rows_.size() * lines_ - run.first, BoundaryLanes::kMaxLines);
-    for (std::size_t i = 0; i < lines.count; ++i) lines.zeta[i] = z_of(run.first + i);
+    lines.count = std::min(z_.size() - run.first, BoundaryLanes::kMaxLines);
     if (lines.columns.size() < kLimbAlone.size()) lines.columns.resize(kLimbAlone.size());
     auto &from = lines.columns[0], &to = lines.columns[1];
-    limb_on_lines(*outline_, lines.zeta.data(), lines.count, from.data(), to.data());
+    limb_on_lines(*outline_, &z_[run.first], lines.count, from.data(), to.data());
     for (std::size_t i = 0; i < lines.count; ++i) {
         from[i] = (from[i] - left) * scale;
         to[i] = (to[i] - left) * scale;
@@ -136,8 +141,8 @@ void ObjectSpans::solve_from(std::size_t line) {
         return;
     }
     const double z0 = outline_->solid.z0;
-    const std::size_t end = std::min(rows_.size() * lines_, line + BoundaryLanes::kMaxLines);
-    double zeta = z_of(line) - z0;
+    const std::size_t end = std::min(z_.size(), line + BoundaryLanes::kMaxLines);
+    double zeta = z_[line] - z0;
     const ZBand* band = band_on_row(*outline_, zeta, band_);
     // A line just where the next band begins belongs to that.
     const double next_at = band != nullptr ? band->zeta_from : zeta > outline_->zeta_to ? outline_->zeta_to : zeta;
@@ -146,7 +151,7 @@ void ObjectSpans::solve_from(std::size_t line) {
         lines.wrong[lines.count] = 0.0;
         lines.zeta[lines.count++] = zeta;
         if (++line == end) break;
-        zeta = z_of(line) - z0;
+        zeta = z_[line] - z0;
     } while (zeta > next_at);
     run.last = line;
     run.changes = {};

@@ -18,8 +18,10 @@ void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, 
 /// The same on some rows from the top down, all of one image: those in one z-band are solved together.
 class ObjectSpans {
   public:
-    /// Begins an object; it and `rows` have to live as long as spans are asked for.
-    void start(const Outline& outline, std::uint32_t index, bool opaque, std::span<const PixelRow> rows);
+    /// Begins with these rows; they have to live as long as spans are asked for.
+    void set_rows(std::span<const PixelRow> rows);
+    /// Begins an object, which has to live as long.
+    void start(const Outline& outline, std::uint32_t index, bool opaque);
     /// Rows [first, last) of these are all that may show it.
     struct Rows {
         std::size_t first, last;
@@ -40,13 +42,13 @@ class ObjectSpans {
     void add_from(const Run& run, std::size_t row, std::vector<RowSpan>& spans) const;
     /// Of a row that the last run begins within; false where that takes more than the last two.
     bool add_from_both(std::size_t row, std::vector<RowSpan>& spans) const;
-    [[nodiscard]] double z_of(std::size_t line) const { return rows_[line / lines_].z[line % lines_]; }
 
     const Outline* outline_ = nullptr;
     std::uint32_t index_ = 0;
     bool opaque_ = true;
     std::span<const PixelRow> rows_;
     std::size_t lines_ = 1;  // of a row
+    std::vector<double> z_;  // of all their lines
     BandPlace band_ = kHighestBand;
     std::array<Run, 2> runs_;
     std::size_t newest_ = 0;

@@ -93,7 +93,8 @@ TEST_CASE("spans of an object are the same, bit for bit, row by row and with its
         for (std::size_t first = 0; first < rows.size();) {
             const std::size_t count = std::min(rows.size() - first, static_cast<std::size_t>(1 + random.below(70)));
             const std::span strip = std::span(rows).subspan(first, count);
-            together.start(outline, 7, true, strip);
+            together.set_rows(strip);
+            together.start(outline, 7, true);
             const auto may_show = together.that_may_show();
             for (std::size_t r = 0; r < count; ++r) {
                 CAPTURE(first + r);

@@ -49,7 +49,7 @@ StripCover::Rows rows_within(std::span<const PixelRow> rows, const ImageBounds& 
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const PixelRow& row = rows[r];
         const bool is_within =
-            (row.z[0] >= around.z_from) & (row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to);
+            row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to;
         within |= static_cast<StripCover::Rows>(is_within) << r;
     }
     return within;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "ig_core/view.h"
 #include "tests/ig_core/random_objects.h"
 
 using namespace quadrig;

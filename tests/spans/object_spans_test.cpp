@@ -5,6 +5,7 @@
 
 #include "ig_core/view.h"
 #include "tests/ig_core/random_objects.h"
+#include "tests/ig_core/simd_targets.h"
 
 using namespace quadrig;
 using namespace quadrig::test;
@@ -75,10 +76,12 @@ void require_same(const std::vector<RowSpan>& a, const std::vector<RowSpan>& b, 
 
 TEST_CASE("spans of an object are the same, bit for bit, row by row and with its rows solved together") {
     CAPTURE(seed());
+    const std::vector<std::int64_t> targets = simd_targets();
     int spans_seen = 0, rows_with_faces = 0, rows_of_limbs = 0;
     for (int trial = 0; trial < trials(300); ++trial) {
         Randomness random(trial);
         CAPTURE(trial);
+        const SimdTarget on(targets[static_cast<std::size_t>(trial) % targets.size()]);
         const double size = random.log_between(0.5, 200), distance = random.log_between(0.3, 60) * size;
         const ImagePlane image = ImagePlane::symmetric(kImageColumns, kImageRows, {random.log_between(5, 120)});
         const glm::dvec3 centre(distance * random.between(-0.5, 0.5), distance, distance * random.between(-0.4, 0.4));

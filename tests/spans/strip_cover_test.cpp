@@ -4,15 +4,18 @@
 #include <vector>
 
 #include "tests/ig_core/randomness.h"
+#include "tests/ig_core/simd_targets.h"
 
 using namespace quadrig;
 using namespace quadrig::test;
 
 TEST_CASE("what a strip's cover hides on a row lies behind it in every column, and all that does is hidden") {
     CAPTURE(seed());
+    const std::vector<std::int64_t> targets = simd_targets();
     long hidden = 0, wrong = 0;
     for (int trial = 0; trial < trials(300); ++trial) {
         Randomness random(trial);
+        const SimdTarget on(targets[static_cast<std::size_t>(trial) % targets.size()]);
         const int width = 1 + random.below(200);
         PixelRow row;  // whose columns are as wide as the image plane's unit
         row.columns = width;

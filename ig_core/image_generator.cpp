@@ -1,5 +1,6 @@
 #include "ig_core/image_generator.h"
 
+#include <hwy/cache_control.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +12,10 @@
 #include "ig_core/objects_in_view.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
-#include "ig_core/spans/row_cover.h"
+#include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"
+#include "ig_core/spans/strip_cover.h"
 #include "ig_core/strip_index.h"
 #include "ig_core/workers.h"
 
@@ -33,13 +35,25 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 /// Scratch of one worker; nothing in it survives a strip but its memory.
 struct RowWorker {
     std::array<std::vector<RowSpan>, kStripRows> spans;
-    std::array<RowCover, kStripRows> covers;
-    RowCover strip_cover;  // what holds on all of the strip's rows
+    ObjectSpans object;
+    StripCover cover;
     RowSweep sweep;
     RowShader shader;
     std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
     std::uint64_t span_count = 0;
 };
+
+/// Rows, a bit each, that lie within the bounds of something.
+StripCover::Rows rows_within(std::span<const PixelRow> rows, const ImageBounds& around) {
+    StripCover::Rows within = 0;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const PixelRow& row = rows[r];
+        const bool is_within =
+            row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to;
+        within |= static_cast<StripCover::Rows>(is_within) << r;
+    }
+    return within;
+}
 
 }  // namespace
 
@@ -152,34 +166,36 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
     const auto on_every_row = [&](auto&& add) {
         for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], worker.spans[r]);
     };
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        worker.spans[r].clear();
-        worker.covers[r].clear(rows[r].columns);
-    }
-    worker.strip_cover.clear(rows[0].columns);
-    for (const std::uint32_t place : objects.on(strip)) {
+    for (std::size_t r = 0; r < rows.size(); ++r) worker.spans[r].clear();
+    static_assert(kStripRows <= StripCover::kRows);
+    worker.cover.clear(rows[0].columns);
+    worker.object.set_rows(rows);
+    const std::span<const std::uint32_t> on_strip = objects.on(strip);
+    for (std::size_t i = 0; i < on_strip.size(); ++i) {
+        const std::uint32_t place = on_strip[i];
+        // Objects come from all over the scene: what each is first asked is fetched some turns ahead.
+        constexpr std::size_t kTurnsAhead = 6;
+        const std::uint32_t ahead = on_strip[std::min(i + kTurnsAhead, on_strip.size() - 1)];
+        hwy::Prefetch(&objects.bounds(ahead));
+        hwy::Prefetch(&paints.objects[objects.object(ahead)].translucent);
         const ImageBounds& around = objects.bounds(place);
-        const double near_u = around.near_u();
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
-        if (worker.strip_cover.hides(columns, near_u)) continue;
+        const StripCover::Rows open = rows_within(rows, around) & worker.cover.open(columns, around.near_u());
+        if (open == 0) continue;
         const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;
-        BandPlace band = kHighestBand;
-        CoveredColumns on_all_rows{0, rows[0].columns, 1.0 / kNearDepth};
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            const PixelRow& row = rows[r];
-            CoveredColumns covered{0, 0, 0.0};
-            if (row.z[0] >= around.z_from && row.z[static_cast<std::size_t>(row.sub_lines) - 1] <= around.z_to &&
-                !worker.covers[r].hides(columns, near_u)) {
-                std::vector<RowSpan>& spans = worker.spans[r];
-                const std::size_t before = spans.size();
-                add_object_spans(objects.outline(place, worker.outline_time), place, opaque, row, band, spans);
-                if (opaque && around.in_front()) covered = columns_covered(std::span(spans).subspan(before));
-                worker.covers[r].add(covered.from, covered.to, covered.far_u);
-            }
-            on_all_rows = {std::max(on_all_rows.from, covered.from), std::min(on_all_rows.to, covered.to),
-                           std::min(on_all_rows.far_u, covered.far_u)};
+        worker.object.start(objects.outline(place, worker.outline_time), place, opaque);
+        const ObjectSpans::Rows may_show = worker.object.that_may_show();
+        StripCover::Covered covered;
+        for (std::size_t r = may_show.first; r < may_show.last; ++r) {
+            if ((open >> r & 1U) == 0) continue;
+            std::vector<RowSpan>& spans = worker.spans[r];
+            const std::size_t before = spans.size();
+            worker.object.add(r, spans);
+            if (!opaque || !around.in_front()) continue;
+            const CoveredColumns whole = columns_covered(std::span(spans).subspan(before));
+            covered.set(r, whole.from, whole.to, whole.far_u);
         }
-        worker.strip_cover.add(on_all_rows.from, on_all_rows.to, on_all_rows.far_u);
+        worker.cover.add(covered);
     }
     if (!everything_opaque) {
         for (const std::uint32_t i : lights_on_strips.on(strip))

@@ -75,17 +75,6 @@ void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
     band.count = static_cast<std::uint32_t>(out.changes.size()) - band.first;
 }
 
-/// The band that a row lies in, looked for from `place` on; null where there is none.
-const ZBand* find_band(const std::vector<ZBand>& bands, double zeta, BandPlace& place) {
-    if (bands.empty()) return nullptr;
-    const auto last = static_cast<BandPlace>(bands.size() - 1);
-    place = std::min(place, last);
-    while (place > 0 && bands[place - 1].zeta_to >= zeta) --place;
-    while (place < last && bands[place].zeta_to < zeta) ++place;
-    const ZBand& band = bands[place];
-    return band.zeta_from <= zeta && zeta <= band.zeta_to ? &band : nullptr;
-}
-
 /// What a row in the middle of each band shows.
 void solve_bands(Outline& out) {
     RowOrder order;
@@ -224,6 +213,17 @@ int cuts_on_row(const Outline& outline, double z, BandPlace& band, Cut* cuts) {
     return count ? *count : cuts_on_row_directly(outline, z, cuts);
 }
 
+const ZBand* band_on_row(const Outline& outline, double zeta, BandPlace& place) {
+    const std::vector<ZBand>& bands = outline.bands;
+    if (bands.empty()) return nullptr;
+    const auto last = static_cast<BandPlace>(bands.size() - 1);
+    place = std::min(place, last);
+    while (place > 0 && bands[place - 1].zeta_to >= zeta) --place;
+    while (place < last && bands[place].zeta_to < zeta) ++place;
+    const ZBand& band = bands[place];
+    return band.zeta_from <= zeta && zeta <= band.zeta_to ? &band : nullptr;
+}
+
 std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& place, Cut* cuts) {
     const double zeta = z - outline.solid.z0, x0 = outline.solid.x0;
     if (zeta < outline.zeta_from || zeta > outline.zeta_to) return 0;
@@ -233,7 +233,7 @@ std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& pla
         cuts[0].surface = 0;
         return cuts[0].from < cuts[0].to ? 1 : 0;
     }
-    const ZBand* band = find_band(outline.bands, zeta, place);
+    const ZBand* band = band_on_row(outline, zeta, place);
     if (band == nullptr) return 0;
     int count = 0;
     double left = -kInfinity;

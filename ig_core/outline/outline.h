@@ -115,6 +115,9 @@ void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& ey
 using BandPlace = std::uint32_t;
 inline constexpr BandPlace kHighestBand = std::numeric_limits<BandPlace>::max();
 
+/// That band; null where there is none.
+const ZBand* band_on_row(const Outline& outline, double zeta, BandPlace& place);
+
 /// The visible surfaces on the scan line z, from left to right: from the z-band the row lies in, or solved directly
 /// where the band's order does not hold to within rounding. Returns how many were written to `cuts` (room for
 /// kMaxCuts).

@@ -165,13 +165,11 @@ class CrossingSearch {
 /// Columns in which two spans overlap on a sub-scan line; none if they lie apart there, but for rounding.
 struct Overlap {
     double from, to;
-    bool apart;
+    [[nodiscard]] bool apart(bool point_samples) const { return !(to - from > (point_samples ? 0.0 : kLeastOverlap)); }
 };
 
-Overlap overlap_on_line(const RowSpan& a, const RowSpan& b, std::size_t line, bool point_samples) {
-    Overlap out{std::max(a.from[line], b.from[line]), std::min(a.to[line], b.to[line]), false};
-    out.apart = !(out.to - out.from > (point_samples ? 0.0 : kLeastOverlap));
-    return out;
+Overlap overlap_on_line(const RowSpan& a, const RowSpan& b, std::size_t line) {
+    return {std::max(a.from[line], b.from[line]), std::min(a.to[line], b.to[line])};
 }
 
 /// Planes without end pass in front of part of a light's disc wherever it stands close to them: they are compared where
@@ -209,7 +207,7 @@ std::size_t RowDepths::place_of(RowSpan& span) {
 
 bool overlap(const RowSpan& a, const RowSpan& b, const PixelRow& row) {
     for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line)
-        if (!overlap_on_line(a, b, line, row.point_samples).apart) return true;
+        if (!overlap_on_line(a, b, line).apart(row.point_samples)) return true;
     return false;
 }
 
@@ -222,11 +220,11 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
         return light_in_front_of_plane(*sb.light, sa.plane) ? Priority::behind : Priority::front;
 
     const auto lines = static_cast<std::size_t>(row.sub_lines);
-    std::array<Overlap, kMaxSubScanLines> overlaps;
+    std::array<bool, kMaxSubScanLines> apart;
     bool all_apart = true;
     for (std::size_t line = 0; line < lines; ++line) {
-        overlaps[line] = overlap_on_line(a, b, line, row.point_samples);
-        all_apart = all_apart && overlaps[line].apart;
+        apart[line] = overlap_on_line(a, b, line).apart(row.point_samples);
+        all_apart = all_apart && apart[line];
     }
     if (all_apart) return sa.near_u + sa.far_u > sb.near_u + sb.far_u ? Priority::front : Priority::behind;
 
@@ -235,12 +233,13 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
     bool front = false, behind = false;
     const CrossingsOnLine* model = nullptr;
     for (std::size_t line = 0; line < lines; ++line) {
-        auto& [from, to, apart] = overlaps[line];
-        if (!apart && row.point_samples) {
+        if (apart[line]) continue;
+        auto [from, to] = overlap_on_line(a, b, line);
+        if (row.point_samples) {
             from = std::ceil(from - 0.5) + 0.5, to = std::ceil(to - 0.5) - 0.5;
-            apart = !(from <= to);
+            apart[line] = !(from <= to);
+            if (apart[line]) continue;
         }
-        if (apart) continue;
         if (!row.point_samples) {
             const double inset = std::min(2.0 * kCrossingWidth, 0.25 * (to - from));
             from += inset, to -= inset;
@@ -263,7 +262,7 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
     // whole, and meets more of its kind.
     for (RowSpan& piece : pieces) piece.splits = 0;
     for (std::size_t line = 0; line < lines; ++line) {
-        CrossingsOnLine cuts = overlaps[line].apart ? *model : crossings[line];
+        CrossingsOnLine cuts = apart[line] ? *model : crossings[line];
         if (cuts.count == 0 && model->count == 1) {
             // What lies over or under `b` stays in one piece.
             const bool first_piece = cuts.starts_in_front == model->starts_in_front;
@@ -289,10 +288,10 @@ bool part_between(const RowSpan& a, const RowSpan& x, const RowSpan& y, const Pi
     for (std::size_t line = 0; line < static_cast<std::size_t>(row.sub_lines); ++line) {
         const double from = a.from[line], to = a.to[line];
         if (!(from < to)) continue;
-        const Overlap of_x = overlap_on_line(a, x, line, row.point_samples);
-        const Overlap of_y = overlap_on_line(a, y, line, row.point_samples);
-        if (of_x.apart || of_y.apart) {
-            put(pieces[of_y.apart ? 0 : 1], a, line, from, to);
+        const Overlap of_x = overlap_on_line(a, x, line), of_y = overlap_on_line(a, y, line);
+        const bool apart_from_y = of_y.apart(row.point_samples);
+        if (of_x.apart(row.point_samples) || apart_from_y) {
+            put(pieces[apart_from_y ? 0 : 1], a, line, from, to);
             continue;
         }
         const bool x_first = of_x.from < of_y.from;

@@ -11,33 +11,6 @@ namespace {
 constexpr std::uint32_t kMarkingPriority = 0xFFFEFFFFu;  // less their places: the last in the file is seen
 constexpr std::uint32_t kGroundPriority = 0xFFFF0000u, kDeckPriority = 0xFFFF0001u, kSkyPriority = 0xFFFFFFFFu;
 
-/// The next of the row's spans, empty on all sub-scan lines.
-RowSpan& empty_span(const PixelRow& row, std::vector<RowSpan>& spans) {
-    RowSpan& span = spans.emplace_back();
-    std::fill_n(span.from.begin(), row.sub_lines, 0.0);
-    std::fill_n(span.to.begin(), row.sub_lines, 0.0);
-    return span;
-}
-
-/// Narrows the bounds of 1/k from the whole object's to the span's own, by its first and last sub-scan line. (What the
-/// lines between could add is less than a sub-scan line high.) What is shallow to begin with is left as it is.
-void bound_depth(const PixelRow& row, RowSpan& span) {
-    constexpr double kShallow = 1.1;
-    if (span.surface.near_u < kShallow * span.surface.far_u) return;
-    std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
-    while (!(span.from[first] < span.to[first])) ++first;
-    while (!(span.from[last] < span.to[last])) --last;
-    double least = std::numeric_limits<double>::infinity(), most = 0.0;
-    for (const std::size_t line : {first, last}) {
-        const DepthOnLine depth(span.surface, row, row.z[line]);
-        least = std::min(least, depth.least(span.from[line], span.to[line]));
-        most = std::max(most, depth.most(span.from[line], span.to[line]));
-        if (first == last) break;
-    }
-    span.surface.near_u = std::min(span.surface.near_u, most);
-    span.surface.far_u = std::max(span.surface.far_u, least);
-}
-
 /// The part of a plane that lies in front of the eye and within edges, d' edge >= 0: a half-line of the row, clipped.
 void add_plane(const Surface& surface, std::span<const glm::dvec3> edges, const PixelRow& row,
                std::vector<RowSpan>& spans) {
@@ -72,23 +45,19 @@ double disc_below(double t) {
 
 }  // namespace
 
-bool fit_columns(const PixelRow& row, RowSpan& span) {
+bool fit_columns(const PixelRow& row, const double* line_from, const double* line_to, RowSpan& span) {
     const double width = row.columns;
     double least_from = width, most_from = 0.0, least_to = width, most_to = 0.0;
-    bool everywhere = true, anywhere = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i) {
         // Ends may be infinite or NaN-free but far outside: clipping makes them columns of the image.
-        span.from[i] = std::clamp(span.from[i], 0.0, width);
-        span.to[i] = std::clamp(span.to[i], 0.0, width);
-        if (!(span.from[i] < span.to[i])) {
-            everywhere = false;
-            continue;
-        }
-        anywhere = true;
-        least_from = std::min(least_from, span.from[i]), most_from = std::max(most_from, span.from[i]);
-        least_to = std::min(least_to, span.to[i]), most_to = std::max(most_to, span.to[i]);
+        const double from = span.from[i] = std::min(std::max(line_from[i], 0.0), width);
+        const double to = span.to[i] = std::min(std::max(line_to[i], 0.0), width);
+        // A line that misses it leaves no column covered whole. Nothing could foresee which one does: no branch.
+        const bool seen = from < to;
+        least_from = std::min(least_from, seen ? from : width), most_from = std::max(most_from, seen ? from : width);
+        least_to = std::min(least_to, seen ? to : 0.0), most_to = std::max(most_to, seen ? to : 0.0);
     }
-    if (!anywhere) return false;
+    if (!(least_from < most_to)) return false;
     if (row.point_samples) {
         span.outer_from = span.inner_from = static_cast<int>(std::ceil(least_from - 0.5));
         span.outer_to = span.inner_to = static_cast<int>(std::ceil(most_to - 0.5));
@@ -101,85 +70,27 @@ bool fit_columns(const PixelRow& row, RowSpan& span) {
     };
     span.outer_from = static_cast<int>(least_from);
     span.outer_to = round_up(most_to);
-    span.inner_from = everywhere ? round_up(most_from) : span.outer_to;
-    span.inner_to = everywhere ? static_cast<int>(least_to) : span.outer_to;
-    if (span.inner_from >= span.inner_to) span.inner_from = span.inner_to = span.outer_to;
+    const int inner_from = round_up(most_from), inner_to = static_cast<int>(least_to);
+    span.inner_from = inner_from < inner_to ? inner_from : span.outer_to;
+    span.inner_to = inner_from < inner_to ? inner_to : span.outer_to;
     return span.outer_from < span.outer_to;
 }
 
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, BandPlace& band,
-                      std::vector<RowSpan>& spans) {
-    const auto lines = static_cast<std::size_t>(row.sub_lines);
-    const double z0 = outline.solid.z0;
-    if (row.z[0] - z0 < outline.zeta_from || row.z[lines - 1] - z0 > outline.zeta_to) return;
-    const auto surface_of = [&](int surface) {
-        Surface out;
-        out.kind = surface == 0 ? Surface::Kind::quadric : Surface::Kind::face;
-        out.opaque = opaque;
-        out.surface = surface;
-        out.index = index;
-        out.priority = outline.object;
-        out.outline = &outline;
-        out.near_u = outline.near_u, out.far_u = outline.far_u;
-        return out;
-    };
-    if (outline.limb_only) {
-        RowSpan& span = spans.emplace_back();
-        limb_on_lines(outline, row.z.data(), lines, span.from.data(), span.to.data());
-        const double scale = 1.0 / row.column_step;
-        for (std::size_t i = 0; i < lines; ++i) {
-            span.from[i] = (span.from[i] - row.left) * scale;
-            span.to[i] = (span.to[i] - row.left) * scale;
-        }
-        if (fit_columns(row, span)) {
-            span.surface = surface_of(0);
-            bound_depth(row, span);
-        } else {
-            spans.pop_back();
-        }
-        return;
+void bound_depth(const PixelRow& row, RowSpan& span) {
+    constexpr double kShallow = 1.1;
+    if (span.surface.near_u < kShallow * span.surface.far_u) return;
+    std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
+    while (!(span.from[first] < span.to[first])) ++first;
+    while (!(span.from[last] < span.to[last])) --last;
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const std::size_t line : {first, last}) {
+        const DepthOnLine depth(span.surface, row, row.z[line]);
+        least = std::min(least, depth.least(span.from[line], span.to[line]));
+        most = std::max(most, depth.most(span.from[line], span.to[line]));
+        if (first == last) break;
     }
-    const double scale = 1.0 / row.column_step;
-    const std::size_t first = spans.size();
-    std::array<Cut, kMaxCuts> cuts;
-    for (std::size_t line = 0; line < lines; ++line) {
-        const int count = cuts_on_row(outline, row.z[line], band, cuts.data());
-        std::size_t next = first;  // cuts and spans both run from left to right
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-            const double from = (cuts[i].from - row.left) * scale, to = (cuts[i].to - row.left) * scale;
-            if (!(to > 0.0 && from < row.columns)) continue;
-            std::size_t at = next;
-            while (at < spans.size() &&
-                   !(spans[at].surface.surface == cuts[i].surface && spans[at].from[line] == spans[at].to[line]))
-                ++at;
-            if (at == spans.size()) {
-                empty_span(row, spans).surface = surface_of(cuts[i].surface);
-            } else {
-                next = at + 1;
-            }
-            spans[at].from[line] = from;
-            spans[at].to[line] = to;
-        }
-    }
-    std::size_t kept = first;
-    for (std::size_t i = first; i < spans.size(); ++i)
-        if (fit_columns(row, spans[i])) {
-            bound_depth(row, spans[i]);
-            if (kept != i) spans[kept] = spans[i];
-            ++kept;
-        }
-    spans.resize(kept);
-}
-
-CoveredColumns columns_covered(std::span<const RowSpan> spans) {
-    CoveredColumns covered{std::numeric_limits<int>::max(), 0, 1.0 / kNearDepth};
-    for (const RowSpan& span : spans) {
-        covered.far_u = std::min(covered.far_u, span.surface.far_u);
-        if (span.inner_from >= span.inner_to) continue;
-        covered.from = std::min(covered.from, span.inner_from);
-        covered.to = std::max(covered.to, span.inner_to);
-    }
-    return covered;
+    span.surface.near_u = std::min(span.surface.near_u, most);
+    span.surface.far_u = std::max(span.surface.far_u, least);
 }
 
 void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,

@@ -1,6 +1,7 @@
-/// Spans of one pixel row: every object's cuts on the row's sub-scan lines, gathered by surface.
+/// Spans of one pixel row: of what has no outline, and what spans of every kind need.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -24,11 +25,6 @@ struct SeenPolygon {
     double z_from = 0, z_to = 0;  ///< rows outside show nothing
 };
 
-/// Appends the spans of one object to `spans`. `opaque` is false for an object with holes; `band` is kept from row to
-/// row.
-void add_object_spans(const Outline& outline, std::uint32_t index, bool opaque, const PixelRow& row, BandPlace& band,
-                      std::vector<RowSpan>& spans);
-
 /// Appends the spans of ground and cloud decks, and the sky behind everything.
 void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,
                      std::vector<RowSpan>& spans);
@@ -41,16 +37,25 @@ void add_polygon_span(const SeenPolygon& polygon, const PlaneDepth& ground, cons
 /// over the line's share of the row, so that all of them together are as bright as the disc is large.
 void add_light_span(const SeenLight& light, const PixelRow& row, std::vector<RowSpan>& spans);
 
-/// Columns [from, to) that a convex object which lies all in front of the near plane covers whole by its spans on a
-/// row, and a bound of 1/k on them: 1/k is concave over such an object's picture, so that the ends of spans bound what
-/// lies between.
-struct CoveredColumns {
-    int from = 0, to = 0;
-    double far_u = 0;
-};
-CoveredColumns columns_covered(std::span<const RowSpan> spans);
+/// Gives a span its ends on the sub-scan lines, clipped to the image, and fits outer and inner columns to them. False
+/// if nothing is left.
+bool fit_columns(const PixelRow& row, const double* from, const double* to, RowSpan& span);
+/// The same with the ends it has.
+inline bool fit_columns(const PixelRow& row, RowSpan& span) {
+    return fit_columns(row, span.from.data(), span.to.data(), span);
+}
 
-/// Fits outer and inner columns to the ends on the sub-scan lines, clipped to the image. False if nothing is left.
-bool fit_columns(const PixelRow& row, RowSpan& span);
+/// Narrows the bounds of 1/k from the whole object's to the fitted span's own, by its first and last sub-scan line.
+/// (What the lines between could add is less than a sub-scan line high.) What is shallow to begin with is left as it
+/// is.
+void bound_depth(const PixelRow& row, RowSpan& span);
+
+/// The next of the row's spans, empty on all sub-scan lines.
+inline RowSpan& empty_span(const PixelRow& row, std::vector<RowSpan>& spans) {
+    RowSpan& span = spans.emplace_back();
+    std::fill_n(span.from.begin(), row.sub_lines, 0.0);
+    std::fill_n(span.to.begin(), row.sub_lines, 0.0);
+    return span;
+}
 
 }  // namespace quadrig

@@ -23,12 +23,11 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
 
 }  // namespace
 
-RowSweep::Active RowSweep::active(std::uint32_t index) const {
-    const RowSpan& span = spans[index];
+RowSweep::Extent RowSweep::extent_of(const RowSpan& span) {
     DepthBounds depth{span.surface.near_u, span.surface.far_u, span.surface.outline};
     // Lights have rules of their own.
     if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0, nullptr};
-    return {index, span.surface.opaque, span.inner_from, span.inner_to, span.outer_to, depth};
+    return {span.outer_from, span.inner_from, span.inner_to, span.outer_to, span.surface.opaque, depth};
 }
 
 std::optional<Priority> RowSweep::order_of_whole(std::uint32_t index, std::uint32_t other) const {
@@ -47,27 +46,30 @@ void RowSweep::cut(std::uint32_t first_order, std::uint32_t other, const PixelRo
         if (piece.splits == 0 || !fit_columns(row, piece)) continue;
         const Start start = start_of(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
         spans.push_back(piece);
+        extents_.push_back(extent_of(piece));
         pieces_.push_back({first_order, last_order, {other, i % 2 == 0 ? Priority::front : Priority::behind}});
         starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
     }
 }
 
 void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
-    const Active own = active(index);
-    const auto covered_by = [&](const Active& other) {
-        return other.outer_to >= own.outer_to && covers(spans[other.span], spans[index], row);
+    const Extent& own = extents_[index];
+    const auto covered_by = [&](std::uint32_t other) {
+        const Extent& cover = extents_[other];
+        if (cover.inner_from <= own.outer_from && own.outer_to <= cover.inner_to) return true;
+        return cover.outer_to >= own.outer_to && covers(spans[other], spans[index], row);
     };
-    const auto meets = [&](const Active& other) { return overlap(spans[index], spans[other.span], row); };
+    const auto meets = [&](std::uint32_t other) { return overlap(spans[index], spans[other], row); };
     const auto first_order = static_cast<std::uint32_t>(orders_.size());
     std::size_t position = active_.size();
     for (std::size_t i = 0; i < active_.size(); ++i) {
-        const Active& other = active_[i];
-        auto priority = order_by_bounds(own.depth, other.depth);
+        const std::uint32_t other = active_[i];
+        auto priority = order_by_bounds(own.depth, extents_[other].depth);
         if (!priority) {
-            priority = order_of_whole(index, other.span);
-            if (!priority) priority = priority_of(spans[index], spans[other.span], row, depths_, crossing_pieces_);
-            if (*priority == Priority::crossing) return cut(first_order, other.span, row);
-            orders_.push_back({other.span, *priority});
+            priority = order_of_whole(index, other);
+            if (!priority) priority = priority_of(spans[index], spans[other], row, depths_, crossing_pieces_);
+            if (*priority == Priority::crossing) return cut(first_order, other, row);
+            orders_.push_back({other, *priority});
         }
         if (*priority == Priority::behind) {
             if (position != active_.size()) {
@@ -75,12 +77,11 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
                 if (!meets(other)) continue;
                 const auto last = active_.begin() + static_cast<std::ptrdiff_t>(i);
                 const auto front = std::find_if(active_.begin() + static_cast<std::ptrdiff_t>(position), last, meets);
-                if (front != last &&
-                    part_between(spans[index], spans[front->span], spans[other.span], row, crossing_pieces_))
+                if (front != last && part_between(spans[index], spans[*front], spans[other], row, crossing_pieces_))
                     return cut(first_order, kNoSpan, row);
             }
             position = active_.size();
-            if (other.opaque && covered_by(other)) {
+            if (extents_[other].opaque && covered_by(other)) {
                 orders_.resize(first_order);
                 return;
             }
@@ -90,26 +91,37 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
         }
     }
     orders_.resize(first_order);
-    active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(position), own);
+    active_.push_back(index);  // and those behind it move on: there are few
+    for (std::size_t i = active_.size() - 1; i > position; --i) active_[i] = active_[i - 1];
+    active_[position] = index;
 }
 
-void RowSweep::emit(int from, int to) {
+int RowSweep::emit(int from, int to) {
     const auto first = static_cast<std::uint32_t>(layers.size());
     bool partial = false;
-    std::size_t i = 0;
-    for (; i < active_.size(); ++i) {
-        const bool whole = active_[i].covers(from);
-        layers.push_back(active_[i].span);
+    int first_end = to, hidden_to = from;
+    std::size_t shown = 0;
+    while (shown < active_.size()) {
+        const std::uint32_t index = active_[shown++];
+        const Extent& span = extents_[index];
+        layers.push_back(index);
+        const bool whole = span.covers(from);
         partial = partial || !whole;
-        if (whole && active_[i].opaque) break;
+        to = std::min(to, span.changes_after(from));
+        first_end = std::min(first_end, span.outer_to);
+        if (whole && span.opaque) {
+            hidden_to = span.inner_to;
+            break;
+        }
     }
-    if (i < active_.size()) {
-        // What ends before the opaque span in front of it does will not be seen again.
-        const int hidden_to = active_[i].inner_to;
-        active_.erase(std::remove_if(active_.begin() + static_cast<std::ptrdiff_t>(i) + 1, active_.end(),
-                                     [&](const Active& other) { return other.outer_to <= hidden_to; }),
-                      active_.end());
+    // What ends before the opaque span in front of it does will not be seen again. Nothing could foresee what is kept:
+    // no branch.
+    std::size_t kept = first_end <= to ? 0 : shown;
+    for (std::size_t i = kept; i < active_.size(); ++i) {
+        const std::uint32_t index = active_[kept] = active_[i];
+        kept += extents_[index].outer_to > (i < shown ? to : hidden_to) ? 1 : 0;
     }
+    active_.resize(kept);
     const auto count = static_cast<std::uint32_t>(layers.size()) - first;
     if (!runs.empty()) {
         LayerRun& last = runs.back();
@@ -118,10 +130,11 @@ void RowSweep::emit(int from, int to) {
                        layers.begin() + first)) {
             last.to = to;
             layers.resize(first);
-            return;
+            return to;
         }
     }
     runs.push_back({from, to, first, count, partial});
+    return to;
 }
 
 void RowSweep::sweep(const PixelRow& row) {
@@ -131,11 +144,13 @@ void RowSweep::sweep(const PixelRow& row) {
     starts_.clear();
     orders_.clear();
     pieces_.clear();
+    extents_.clear();
     first_piece_ = static_cast<std::uint32_t>(spans.size());
     depths_.start(row);
     for (std::uint32_t i = 0; i < spans.size(); ++i) {
         spans[i].depths = -1;
         starts_.push_back(start_of(spans[i].outer_from, i));
+        extents_.push_back(extent_of(spans[i]));
     }
     if (starts_.size() < kMany)
         std::sort(starts_.begin(), starts_.end(), std::greater<>());
@@ -148,20 +163,7 @@ void RowSweep::sweep(const PixelRow& row) {
             starts_.pop_back();
             insert(index, row);
         }
-        int next = starts_.empty() ? row.columns : std::min(column_of(starts_.back()), row.columns);
-        int first_end = row.columns;
-        for (const Active& span : active_) {
-            if (span.inner_from > column) next = std::min(next, span.inner_from);
-            if (span.inner_to > column) next = std::min(next, span.inner_to);
-            first_end = std::min(first_end, span.outer_to);
-        }
-        next = std::min(next, first_end);
-        emit(column, next);
-        column = next;
-        if (first_end > column) continue;
-        active_.erase(
-            std::remove_if(active_.begin(), active_.end(), [&](const Active& span) { return span.outer_to <= column; }),
-            active_.end());
+        column = emit(column, starts_.empty() ? row.columns : std::min(column_of(starts_.back()), row.columns));
     }
 }
 

@@ -30,7 +30,9 @@ class RowSweep {
 
   private:
     void insert(std::uint32_t index, const PixelRow& row);
-    void emit(int from, int to);
+    /// Appends the run from a column on, up to `to` at most; returns where it ends, and drops what ends there or will
+    /// not be seen again.
+    int emit(int from, int to);
 
     /// Where a span begins: one number, which is quicker to sort than two.
     using Start = std::uint64_t;
@@ -38,16 +40,20 @@ class RowSweep {
     static int column_of(Start start) { return static_cast<int>(start >> 32); }
     std::vector<Start> starts_;  // by falling column, then span: the next one is last
     hwy::Sorter sort_many_;
-    /// A span that the sweep is over, with what every step asks of it.
-    struct Active {
-        std::uint32_t span;
+    /// What every step asks of a span, close together.
+    struct Extent {
+        int outer_from, inner_from, inner_to, outer_to;
         bool opaque;
-        int inner_from, inner_to, outer_to;
         DepthBounds depth;
         [[nodiscard]] bool covers(int column) const { return inner_from <= column && column < inner_to; }
+        /// Where it next begins or ceases to cover columns whole, or ends.
+        [[nodiscard]] int changes_after(int column) const {
+            return column < inner_from ? inner_from : column < inner_to ? inner_to : outer_to;
+        }
     };
-    [[nodiscard]] Active active(std::uint32_t index) const;
-    std::vector<Active> active_;  // front to back
+    static Extent extent_of(const RowSpan& span);
+    std::vector<Extent> extents_;        // parallel to `spans`
+    std::vector<std::uint32_t> active_;  // spans that the sweep is over, front to back
 
     /// Order of a span relative to another, found while it was put among the active ones.
     struct Order {

@@ -7,6 +7,7 @@
 
 #include "config/camera_path.h"
 #include "config/scene_file.h"
+#include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/sweep.h"
 #include "ig_core/view.h"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/sweep.h"
 #include "tests/ig_core/exact_solid.h"

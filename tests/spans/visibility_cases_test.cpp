@@ -46,6 +46,21 @@ TEST_CASE("an empty scene is sky, with a ground it is ground below the horizon")
     }
 }
 
+TEST_CASE("pixel centres along the horizon are ground at a depth or sky without one") {
+    ImageGenerator generator(scene_of({}, true));
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(40); ++trial) {
+        Randomness random(trial);
+        const Attitude attitude{{random.between(0, 360)}, {0}, {random.chance(0.5) ? 45 : random.between(-180, 180)}};
+        const GroundTruth truth = generator.ground_truth(look(random.vector(50), attitude, 61, 41, 60));
+        int torn = 0;
+        for (std::size_t at = 0; at < truth.depth.size(); ++at)
+            torn += (truth.object_ids[at] == kSkyId) != std::isinf(truth.depth[at]) || truth.depth[at] <= 0;
+        CAPTURE(trial);
+        CHECK(torn == 0);
+    }
+}
+
 TEST_CASE("of objects given twice the first in the file is seen") {
     CAPTURE(seed());
     for (int trial = 0; trial < trials(40); ++trial) {

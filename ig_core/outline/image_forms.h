@@ -84,9 +84,10 @@ RowRoots roots_on_row(const RowConic& conic, double zeta);
 inline double root_on_row(const RowConic& conic, double zeta, bool rising) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
     const double sum = std::copysign(root + std::abs(beta), 0.0 - beta);  // never cancels
-    // gamma / sum or sum / alpha, looked up: no branch could foresee which.
+    // gamma / sum or sum / alpha, looked up: no branch could foresee which. A row that only touches the conic has one
+    // root twice, and gamma and sum may both be nothing but rounding.
     const std::array<double, 3> parts{conic.gamma_at(zeta), sum, conic.alpha};
-    const std::size_t first = (beta <= 0.0) == rising ? 1 : 0;
+    const std::size_t first = ((beta <= 0.0) == rising) | (root == 0.0) ? 1 : 0;
     return parts[first] / parts[first + 1];
 }
 
@@ -133,8 +134,10 @@ glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const Eye
 /// costs a wrong picture: the tolerance errs towards keeping it.
 inline bool loses(const EyePlane& plane, double x, double y, double z) {
     constexpr double kTolerance = 1e-6;
-    const double at = plane.normal.x * x + plane.normal.y * y + plane.normal.z * z;
-    return at + plane.at_eye + kTolerance * (std::abs(at) + std::abs(plane.at_eye)) < 0.0;
+    // Beside its terms: a plane that holds both eye and point has nothing but their rounding.
+    const double along_x = plane.normal.x * x, along_y = plane.normal.y * y, along_z = plane.normal.z * z;
+    const double size = std::abs(along_x) + std::abs(along_y) + std::abs(along_z) + std::abs(plane.at_eye);
+    return along_x + along_y + along_z + plane.at_eye + kTolerance * size < 0.0;
 }
 /// Whether every plane but `own` keeps it.
 bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);

@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <csignal>
@@ -30,6 +33,14 @@ int done() {
     return std::cout ? kDone : complain("standard output cannot be written to", kFailed);
 }
 
+/// A standard stream that the caller closed would be the first file opened, and diagnostics would go into a recording.
+/// Its place is taken by what refuses every use of it.
+void keep_standard_streams_apart() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 /// CLI11 complains of what is missing before what is unknown, which is more often the reason.
 std::string reason(const CLI::App& program, const CLI::ParseError& error) {
     const auto unknown = program.remaining(true);
@@ -39,6 +50,7 @@ std::string reason(const CLI::App& program, const CLI::ParseError& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_standard_streams_apart();
     // A reader that goes away is an error of the write, not the end of the program.
     std::signal(SIGPIPE, SIG_IGN);
 

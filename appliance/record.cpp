@@ -36,7 +36,8 @@ void record(const RecordOptions& options) {
 
 constexpr const char* kRecordNotes =
     "No pictures: only what hosts send, as the link hears it. The file is pcapng, or for CAN candump's text where its\n"
-    "name ends in .log. SIGINT (control-C) and SIGTERM end the recording; whatever ends it, all but the last tenth of "
+    "name ends in .log. SIGINT (control-C), SIGTERM and SIGHUP end the recording; whatever ends it, all but the last "
+    "tenth of "
     "a\n"
     "second is in the file. 'quadrig run --record FILE' records while it draws.\n\n"
     "Examples:\n"

@@ -37,17 +37,16 @@ std::uint64_t frames_wanted(const ReplayOptions& options, const scheduler::Frame
     return std::min(all, wanted);
 }
 
-/// Until the recording ends, or as asked for. Capture times are only numbers in a file: without a limit, those that
-/// would run for days are refused.
-std::uint64_t frames_to_draw(const ReplayOptions& options, const scheduler::FrameRate& rate, const Playback& playback) {
+/// Until the recording ends. Capture times are only numbers in a file: without a limit, those that would run for days
+/// are refused.
+std::uint64_t frames_in(const ReplayOptions& options, const scheduler::FrameRate& rate, const Playback& playback) {
     using namespace std::chrono_literals;
     const scheduler::Time length = playback.end() - playback.begin();
     if (length > 24h && !options.frames && !options.duration)
         throw std::runtime_error("by its own clock this recording lasts " +
                                  std::to_string(std::chrono::duration_cast<std::chrono::hours>(length).count()) +
                                  " hours; say how much of it with --frames or --seconds");
-    const std::uint64_t all = scheduler::first_frame_from(rate, length + 1ns);
-    return frames_wanted(options, rate, all);
+    return scheduler::first_frame_from(rate, length + 1ns);
 }
 
 /// What a frame of the loop shows.
@@ -171,8 +170,8 @@ void replay(const ReplayOptions& options) {
 
     EntitiesAgain entities(given.entities, scene.origin, run ? std::optional(options.recording) : std::nullopt);
 
-    const std::uint64_t frames = again ? frames_wanted(options, settings.rate, again->size())
-                                       : frames_to_draw(options, settings.rate, *playback);
+    const std::uint64_t all = again ? again->size() : frames_in(options, settings.rate, *playback);
+    const std::uint64_t frames = frames_wanted(options, settings.rate, all);
     Outlets outlets({given.sinks,
                      {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
                      options.fast ? display::WhenFull::wait : display::WhenFull::drop,
@@ -191,7 +190,7 @@ void replay(const ReplayOptions& options) {
     else
         run_in_real_time(settings.rate, length, options.fifo, hooks, record, report);
 
-    if (!options.frames && !options.duration && !stop_requested()) {
+    if (frames == all && !stop_requested()) {
         if (again) again->play_rest();
         if (playback) playback->state_at(playback->end());
     }

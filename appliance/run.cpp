@@ -172,7 +172,7 @@ constexpr const char* kRunNotes =
     "can://INTERFACE and modbus://ADDRESS:PORT; say 0.0.0.0 to be heard beyond this machine. Of several hosts the "
     "first that was heard within a "
     "second drives.\n"
-    "SIGINT (control-C) and SIGTERM end the run with its report.\n\n"
+    "SIGINT (control-C), SIGTERM and SIGHUP end the run with its report.\n\n"
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
     "  links = [\"fdm://127.0.0.1:5500\"]\n"

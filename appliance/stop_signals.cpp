@@ -19,6 +19,10 @@ void watch_stop_signals() {
     action.sa_handler = note_stop;
     action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
     for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    // A terminal that goes away; under nohup it is to be ignored.
+    struct sigaction hang_up {};
+    sigaction(SIGHUP, nullptr, &hang_up);
+    if (hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 bool stop_requested() { return requested.load(std::memory_order_relaxed); }

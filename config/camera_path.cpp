@@ -103,6 +103,8 @@ class PathReader {
     bool take(int depth, Event event, const Json& parsed) {
         if (depth == 0 && event == Event::array_start) is_array_ = true;
         if (!is_array_) return true;
+        // What a camera cannot have, however deep: the array around it is refused.
+        if (depth > 4) return false;
         if (depth == 1 && (event == Event::object_start || event == Event::array_start)) {
             lines_ = {{"", line_here()}};
         } else if (depth == 1) {

@@ -40,11 +40,49 @@ std::string list_of(KnownKeys known) {
     return list;
 }
 
+/// Parts that a key may have, as a.b.c has three. toml++ 3.3 recurses over them without a limit of its own.
+constexpr int kMostKeyParts = 32;
+
+/// Where the string that begins at `at` has ended.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+    const char quote = text[at];
+    const bool long_one = text.substr(at, 3) == std::string(3, quote);
+    const std::string end(long_one ? 3 : 1, quote);
+    for (at += end.size(); at < text.size() && (long_one || text[at] != '\n'); ++at) {
+        if (quote == '"' && text[at] == '\\')
+            ++at;
+        else if (text.substr(at, end.size()) == end)
+            return std::min(text.find_first_not_of(quote, at), text.size());
+    }
+    return at;
+}
+
+/// The line of the first key that has more parts; 0 where none has.
+std::size_t line_of_too_long_a_key(std::string_view text) {
+    constexpr std::string_view kBetweenKeys = "\n=,[]{}";
+    int parts = 1;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        if (c == '"' || c == '\'')
+            at = end_of_string(text, at) - 1;
+        else if (c == '#')
+            at = std::min(text.find('\n', at), text.size()) - 1;
+        else if (kBetweenKeys.find(c) != std::string_view::npos)
+            parts = 1;
+        else if (c == '.' && ++parts > kMostKeyParts)
+            return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + at, '\n'));
+    }
+    return 0;
+}
+
 }  // namespace
 
 toml::table parse_toml_file(const std::filesystem::path& file) { return parse_toml_text(file, read_text_file(file)); }
 
 toml::table parse_toml_text(const std::filesystem::path& file, std::string_view text) {
+    if (const std::size_t line = line_of_too_long_a_key(text))
+        throw FileError(file, line, "",
+                        "expected keys of at most " + std::to_string(kMostKeyParts) + " parts, found a longer one");
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {

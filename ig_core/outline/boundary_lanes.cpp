@@ -31,7 +31,8 @@ HWY_INLINE V root_at(D d, const RowConic& conic, bool rising, V zeta) {
     const V root = hn::Sqrt(hn::IfThenElseZero(hn::Gt(discriminant, zero), discriminant));
     const V beta = line_at(d, conic.beta[0], conic.beta[1], zeta);
     const V sum = hn::CopySign(hn::Add(root, hn::Abs(beta)), hn::Sub(zero, beta));
-    const auto by_alpha = rising ? hn::Le(beta, zero) : hn::Not(hn::Le(beta, zero));
+    const auto left_of_axis = hn::Le(beta, zero);
+    const auto by_alpha = hn::Or(rising ? left_of_axis : hn::Not(left_of_axis), hn::Eq(root, zero));
     return hn::Div(hn::IfThenElse(by_alpha, sum, parabola_at(d, conic.gamma, zeta)),
                    hn::IfThenElse(by_alpha, hn::Set(d, conic.alpha), sum));
 }

@@ -113,9 +113,9 @@ HWY_INLINE Roots real_roots(Number a, Number b, Number c) {
 
 /// As loses and faces_eye say of one point.
 HWY_INLINE Mask loses(const EyePlane& plane, const Vector& p) {
-    const Number at = dot(plane.normal, p);
-    const Number more = at + plane.at_eye + kKeeping * (magnitude(at) + std::abs(plane.at_eye));
-    return hn::Lt(more.v, hn::Zero(D()));
+    const Number x = plane.normal.x * p.x, y = plane.normal.y * p.y, z = plane.normal.z * p.z;
+    const Number size = magnitude(x) + magnitude(y) + magnitude(z) + std::abs(plane.at_eye);
+    return hn::Lt((x + y + z + plane.at_eye + kKeeping * size).v, hn::Zero(D()));
 }
 HWY_INLINE Mask faces_eye(const EyeSolid& e, const Vector& p) {
     const Number curved = value(e.m, p), straight = dot(e.v, p);

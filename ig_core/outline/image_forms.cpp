@@ -47,7 +47,8 @@ bool misses_row(const RowConic& conic, double zeta) {
 RowRoots roots_on_row(const RowConic& conic, double zeta) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
     const double sum = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
-    const double one = sum / conic.alpha, other = conic.gamma_at(zeta) / sum;
+    const double one = sum / conic.alpha;
+    const double other = root == 0.0 ? one : conic.gamma_at(zeta) / sum;  // as in root_on_row
     return beta <= 0.0 ? RowRoots{one, other} : RowRoots{other, one};
 }
 

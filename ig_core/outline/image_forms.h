@@ -85,9 +85,10 @@ RowRoots roots_on_row(const RowConic& conic, double zeta);
 inline double root_on_row(const RowConic& conic, double zeta, bool rising) {
     const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
     const double sum = std::copysign(root + std::abs(beta), 0.0 - beta);  // never cancels
-    // gamma / sum or sum / alpha, looked up: no branch could foresee which.
+    // gamma / sum or sum / alpha, looked up: no branch could foresee which. A row that only touches the conic has one
+    // root twice, and gamma and sum may both be nothing but rounding.
     const std::array<double, 3> parts{conic.gamma_at(zeta), sum, conic.alpha};
-    const std::size_t first = (beta <= 0.0) == rising ? 1 : 0;
+    const std::size_t first = ((beta <= 0.0) == rising) | (root == 0.0) ? 1 : 0;
     return parts[first] / parts[first + 1];
 }
 
@@ -131,10 +132,12 @@ glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const Eye
 
 /// Relative to what is summed up: a point kept in vain costs one more question, one lost costs a wrong picture.
 inline constexpr double kKeeping = 1e-6;
-/// Whether a plane takes a point of the sheared eye space away, by more than kKeeping.
+/// Whether a plane takes a point of the sheared eye space away, by more than kKeeping beside its terms: a plane that
+/// holds both eye and point has nothing but their rounding.
 inline bool loses(const EyePlane& plane, const glm::dvec3& p) {
-    const double at = glm::dot(plane.normal, p);
-    return at + plane.at_eye + kKeeping * (std::abs(at) + std::abs(plane.at_eye)) < 0.0;
+    const glm::dvec3 along = plane.normal * p;
+    const double size = std::abs(along.x) + std::abs(along.y) + std::abs(along.z) + std::abs(plane.at_eye);
+    return along.x + along.y + along.z + plane.at_eye + kKeeping * size < 0.0;
 }
 /// Whether the quadric through a point is entered there by the ray from the eye, p'Mp + v.p <= 0, to within kKeeping.
 bool faces_eye(const EyeSolid& solid, const glm::dvec3& point);

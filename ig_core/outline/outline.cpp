@@ -67,7 +67,7 @@ void find_bands(const RowGrid& rows, Outline& out) {
     out.bands.resize(count);
 }
 
-double middle(const ZBand& band) { return 0.5 * (band.zeta_from + band.zeta_to); }
+double typical_row(const ZBand& band) { return typical_between(band.zeta_from, band.zeta_to); }
 
 void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
     band.first = static_cast<std::uint32_t>(out.changes.size());
@@ -75,11 +75,11 @@ void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
     band.count = static_cast<std::uint32_t>(out.changes.size()) - band.first;
 }
 
-/// What a row in the middle of each band shows.
+/// What a typical row of each band shows.
 void solve_bands(Outline& out) {
     RowOrder order;
     for (ZBand& band : out.bands) {
-        solve_row(out, middle(band), order);
+        solve_row(out, typical_row(band), order);
         set_changes(order, band, out);
     }
 }
@@ -90,7 +90,7 @@ void tell_bands(Outline& out) {
     std::array<double, kRowsTogether> zeta;
     for (std::size_t first = 0; first < out.bands.size(); first += kRowsTogether) {
         const std::span bands = std::span(out.bands).subspan(first, std::min(out.bands.size() - first, kRowsTogether));
-        std::transform(bands.begin(), bands.end(), zeta.begin(), middle);
+        std::transform(bands.begin(), bands.end(), zeta.begin(), typical_row);
         rows.tell({zeta.data(), bands.size()}, told);
         for (std::size_t i = 0; i < bands.size(); ++i) {
             if (!told.sure[i]) solve_row(out, zeta[i], told.orders[i]);

@@ -4,8 +4,8 @@
 /// Key points are the only places where the visible boundaries of a convex object change from scan line to scan line:
 /// extrema of the limb and of intersection curves, contact points, and the ends of the edges along which two planes
 /// meet (intersection points and triplets). Only those that lie on the object count. Between two of them the order of
-/// boundaries and surfaces is constant; it is found once, on a typical scan line, by asking for the surface in the
-/// middle of every interval.
+/// boundaries and surfaces is constant; it is found once, on a typical scan line, by asking for the surface
+/// inside every interval.
 #pragma once
 
 #include <algorithm>

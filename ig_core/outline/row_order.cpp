@@ -68,12 +68,14 @@ void solve_row(const Outline& outline, double zeta, RowOrder& order) {
         const bool outside = (i == 0 || i == count) && !outline.direct;  // of a bounded solid: nothing is there
         if (outside && surface != kNoSurface) order.add(left_boundary, surface = kNoSurface);
         if (!outside && right - left > kSliver) {
-            double middle = 0.5 * (left + right);
+            // Where nothing changes any place will do but the object's own middle, which a limb may touch.
+            constexpr double kAnywhere = 0.618;
+            double xi = typical_between(left, right);
             if (!std::isfinite(left))
-                middle = std::isfinite(right) ? right - 1.0 - std::abs(right) : 0.0;
+                xi = std::isfinite(right) ? right - 1.0 - std::abs(right) : kAnywhere;
             else if (!std::isfinite(right))
-                middle = left + 1.0 + std::abs(left);
-            const int here = surface_at(outline.solid, middle, zeta);
+                xi = left + 1.0 + std::abs(left);
+            const int here = surface_at(outline.solid, xi, zeta);
             if (here != surface) order.add(left_boundary, here);
             surface = here;
         }

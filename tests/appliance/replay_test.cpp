@@ -146,6 +146,9 @@ TEST_CASE("A run ends where --frames or --seconds says, or with the recording") 
     CHECK(frames({"--frames", "7"})["links"][0]["datagrams"] == 6);
     CHECK(frames({"--seconds", "0.5"})["frames"] == 30);
     CHECK(frames({"--frames", "1000000"})["frames"] == 60);
+    // What comes after the last frame is of the recording too.
+    for (const Arguments& more : {Arguments{}, {"--frames", "1000000"}, {"--seconds", "1000"}})
+        CHECK(frames(more)["links"][0]["datagrams"] == 60);
     const auto all = frames({})["frame_hashes"].get<std::vector<std::string>>();
     const auto some = frames({"--frames", "7"})["frame_hashes"].get<std::vector<std::string>>();
     CHECK(some == std::vector<std::string>(all.begin(), all.begin() + 7));

@@ -155,6 +155,26 @@ TEST_CASE("A CIGI 4.0 host drives a live run, in either byte order, and is answe
     CHECK(link["last_pose"]["altitude"] == Approx(601.0));
 }
 
+TEST_CASE("A terminal that goes away ends a run with its report, but under nohup it runs on") {
+    const std::filesystem::path report = scratch_directory() / "r.json";
+    const Arguments run{"run",    "--scene", scene(),    "--link",       "fdm://127.0.0.1:0",
+                        "--size", "8x8",     "--report", report.string()};
+    Program program(run);
+    REQUIRE(program.number_after("listens on port "));
+    program.signal(SIGHUP);
+    CHECK(program.wait().status == 0);
+    CHECK(report_of(report)["repeated_frames"].is_number());
+
+    const auto before = std::signal(SIGHUP, SIG_IGN);
+    Program nohup(run);
+    std::signal(SIGHUP, before);
+    REQUIRE(nohup.number_after("listens on port "));
+    nohup.signal(SIGHUP);
+    std::this_thread::sleep_for(100ms);
+    nohup.signal(SIGUSR1);
+    CHECK(nohup.wait().status == -SIGUSR1);
+}
+
 TEST_CASE("A CIGI host gets Start Of Frame back, every frame, and is answered with its own frame numbers") {
     const auto out = scratch_directory();
     Program program({"run", "--scene", scene(), "--link", "cigi://127.0.0.1:0", "--size", "32x24", "--rate", "60",

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <regex>
 #include <set>
 #include <string>
@@ -205,6 +206,20 @@ TEST_CASE("Standard output that cannot be written to is a failure") {
         const std::string command = std::string(QUADRIG_PROGRAM) + " " + asked + " 2>/dev/null >/dev/full";
         CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
     }
+}
+
+TEST_CASE("A standard stream that was closed is no output file: nothing but its own goes into one") {
+    const std::string out = scratch_directory(), scene = scratch_file("scene.toml", small_scene());
+    const std::string program = QUADRIG_PROGRAM, flight = shipped("config/traces/canaerospace-c172-takeoff.log");
+    const std::string record = program + " record NAME --link fdm://127.0.0.1:0 --seconds 0.05";
+    const auto status = [](const std::string& command) { return WEXITSTATUS(std::system(command.c_str())); };
+    CHECK(status("cd " + out + "; " + record + " 2>err && mv NAME open") == 0);
+    CHECK(status("cd " + out + "; " + record + " <&- >&- 2>&- && mv NAME closed") == 0);
+    CHECK(std::filesystem::file_size(out + "/open") == std::filesystem::file_size(out + "/closed"));
+    CHECK(status(program + " check '" + scene + "' >&- 2>'" + out + "/err'") == 1);
+    CHECK(status(program + " replay '" + flight + "' --fast --frames 2 --size 8x8 --sink y4m:- --scene '" + scene +
+                 "' <&- >&- 2>'" + out + "/err'") == 1);
+    CHECK_THAT(text_of(out + "/err"), Contains("y4m:-: cannot be written: Bad file descriptor"));
 }
 
 TEST_CASE(

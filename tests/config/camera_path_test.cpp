@@ -54,6 +54,10 @@ TEST_CASE("mistakes in a camera path are refused with the camera's index and the
                Catch::Contains("expected this key, found none"));
     CHECK_THAT(complaint_about(R"([{"eye": [0, 0, 0], "attitude": [0, 0, 0], "fov": 60, "roll": 1}])", "[0].roll"),
                Catch::Contains("unknown key"));
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    CHECK_THAT(complaint_about(deep, "[0]"), Catch::Contains("expected an object of eye, attitude and fov"));
+    CHECK_THAT(complaint_about(R"([{"eye": )" + deep + R"(, "attitude": [0, 0, 0], "fov": 60}])", "[0].eye"),
+               Catch::Contains("expected an array of 3 numbers, found [[[]]]"));
     CHECK_THAT(complaint_about("[3]", "[0]"), Catch::Contains("found 3"));
     CHECK_THAT(complaint_about("[]", ""), Catch::Contains("at least one camera"));
     CHECK_THAT(complaint_about("{}", ""), Catch::Contains("at least one camera"));

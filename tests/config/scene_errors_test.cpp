@@ -190,6 +190,23 @@ TEST_CASE("a text that is not TOML is refused with its line") {
     }
 }
 
+TEST_CASE("a key of very many parts is refused with its line, dots elsewhere are not counted") {
+    std::string key = "a";
+    for (int part = 1; part < 100'000; ++part) key += part % 2 ? ".b" : ".\"c d\"";
+    for (const std::string& text :
+         {key + " = 1\n", "[" + key + "]\n", "[[" + key + "]]\n", "a = { " + key + " = 1 }\n"}) {
+        const config::FileError error = complaint_about(TemporaryFile("# a comment\n\n" + text).path());
+        CHECK(error.line() == 3);
+        CHECK_THAT(error.what(), Catch::Contains("expected keys of at most 32 parts"));
+    }
+    const std::string dots(1000, '.');
+    CHECK_NOTHROW(
+        config::read_scene(TemporaryFile("# " + dots + "\n[scene]\nname = \"\"\"\\\"" + dots + "\n\"" + dots +
+                                         "\"\"\"\"\n[[object]]\nname = '" + dots +
+                                         "'\nellipsoid = { centre = [0.5, 1.5, 2.5], semi_axes = [1.0, 1.0, 1.0] }\n")
+                               .path()));
+}
+
 TEST_CASE("a file that cannot be read is refused by its name") {
     CHECK_THAT(complaint_about("/nowhere/scene.toml").what(),
                Catch::StartsWith("/nowhere/scene.toml: cannot be read: No such file"));

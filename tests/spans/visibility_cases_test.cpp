@@ -46,6 +46,21 @@ TEST_CASE("an empty scene is sky, with a ground it is ground below the horizon")
     }
 }
 
+TEST_CASE("pixel centres along the horizon are ground at a depth or sky without one") {
+    ImageGenerator generator(scene_of({}, true));
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(40); ++trial) {
+        Randomness random(trial);
+        const Attitude attitude{{random.between(0, 360)}, {0}, {random.chance(0.5) ? 45 : random.between(-180, 180)}};
+        const GroundTruth truth = generator.ground_truth(look(random.vector(50), attitude, 61, 41, 60));
+        int torn = 0;
+        for (std::size_t at = 0; at < truth.depth.size(); ++at)
+            torn += (truth.object_ids[at] == kSkyId) != std::isinf(truth.depth[at]) || truth.depth[at] <= 0;
+        CAPTURE(trial);
+        CHECK(torn == 0);
+    }
+}
+
 TEST_CASE("of objects given twice the first in the file is seen") {
     CAPTURE(seed());
     for (int trial = 0; trial < trials(40); ++trial) {
@@ -125,6 +140,99 @@ TEST_CASE("solids entered nearer than 0.1 m are not drawn on that ray") {
         CHECK(agreement.wrong_identity == 0);
         CHECK(agreement.wrong_depth == 0);
     }
+}
+
+TEST_CASE("a row that only touches a solid and one of its faces shows nothing") {
+    Object half;  // the row of y = 120 touches it at (80, 120, -10), in its face
+    half.shape = Ellipsoid{{{80, 100, -10}}, {20, 20, 30}, {{180}, {0}, {90}}};
+    half.planes = {{{0, 0, -1, -10}}};
+    ImageGenerator generator(scene_of({half}));
+    for (const double x : {20.0, 10.0, -7.0, -40.0})
+        for (const double pitch : {-10.0, -20.0, -30.0, -33.0}) {
+            const Agreement agreement =
+                compare_with_reference(generator, look({x, 120, 50}, {{90}, {pitch}, {90}}, 65, 49, 90));
+            CAPTURE(x, pitch);
+            CHECK(agreement.objects > 0);
+            CHECK(agreement.wrong_identity == 0);
+            CHECK(agreement.wrong_depth == 0);
+        }
+}
+
+TEST_CASE("the row at the height of a cut ellipsoid's top shows nothing of it to an eye as high") {
+    CAPTURE(seed());
+    Agreement all;
+    for (int trial = 0; trial < trials(60); ++trial) {
+        Randomness random(trial);
+        Object object;
+        const glm::dvec3 centre(5.0 * random.below(5), 40.0 + random.below(20), random.below(20) - 10.0);
+        const glm::dvec3 semi_axes(3.0 + random.below(5), 3.0 + random.below(5), 3.0 + random.below(5));
+        object.shape = Ellipsoid{{centre}, semi_axes, {{45.0 * random.below(8)}, {0}, {90}}};
+        object.planes = {{{1, 0, 0, 1 - centre.x}}, {{0, -1, 0, centre.y + 2}}};
+        ImageGenerator generator(scene_of({object}));
+        const glm::dvec3 eye(10.0 * random.below(3), 0, centre.z + semi_axes.x);  // rolled, right is up
+        all += compare_with_reference(generator, look(eye, {{0}, {0}, {0}}, 49, 49, 60));
+    }
+    CHECK(all.objects > 0);
+    CHECK(all.wrong_identity == 0);
+    CHECK(all.wrong_depth == 0);
+}
+
+TEST_CASE("a plane that touches a cylinder or a hill shows no face to an eye straight before it") {
+    Object cylinder, hill;  // along Z about (0, 20), and with its apex at (0, 30, 10)
+    cylinder.shape = GeneralQuadric{{1, 1, 0, 0, 0, 0, 0, -40, 0, 400 - 9}};
+    cylinder.planes = {{{0, 1, 0, -17}}, {{0, 0, -1, 5}}, {{0, 0, 1, 5}}};
+    hill.shape = Hill{{{0, 30, 10}}, 5, 0.7};
+    hill.planes = {{{0, 0, -1, 10}}, {{0, 0, 1, 0}}};
+    for (const double roll : {0.0, 45.0, 90.0})
+        for (const double pitch : {0.0, -20.0, -90.0}) {
+            ImageGenerator generator(scene_of({pitch == -90.0 ? hill : cylinder}));
+            const glm::dvec3 eye = pitch == -90.0 ? glm::dvec3(0, 30, 40) : glm::dvec3(0, 0, 3);
+            const Agreement agreement =
+                compare_with_reference(generator, look(eye, {{0}, {pitch}, {roll}}, 65, 49, 60));
+            CAPTURE(roll, pitch);
+            CHECK(agreement.objects > 400);
+            CHECK(agreement.wrong_identity == 0);
+            CHECK(agreement.wrong_depth == 0);
+        }
+}
+
+TEST_CASE("a plane that touches a cylinder and holds the eye takes nothing away") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(60); ++trial) {
+        Randomness random(trial);
+        // Whole numbers, so that the plane holds the eye to the last bit.
+        const double y = 8 + random.below(20), z = random.below(9) - 4, r = 1 + random.below(6);
+        Object cylinder;  // along X
+        cylinder.shape = GeneralQuadric{{0, 1, 1, 0, 0, 0, 0, -2 * y, -2 * z, y * y + z * z - r * r}};
+        cylinder.planes = {{{1, 0, 0, 6}}, {{-1, 0, 0, 6}}, {{0, 0, -1, z + r}}};
+        const glm::dvec3 eye(random.below(9) - 4, random.below(3), z + r);
+        const Attitude attitude{{random.between(-20, 20)},
+                                {random.chance(0.3) ? 0 : random.between(-20, 10)},
+                                {random.chance(0.3) ? 180 : random.between(-180, 180)}};
+        ImageGenerator generator(scene_of({cylinder}));
+        const Agreement agreement = compare_with_reference(generator, look(eye, attitude, 65, 49, 60));
+        CAPTURE(trial);
+        CHECK(agreement.objects > 0);
+        CHECK(agreement.wrong_identity == 0);
+        CHECK(agreement.wrong_depth == 0);
+    }
+}
+
+TEST_CASE("a hill whose apex is exactly as high as the eye does not fill the row at that height") {
+    CAPTURE(seed());
+    Agreement all;
+    for (int trial = 0; trial < trials(60); ++trial) {
+        Randomness random(trial);
+        Object hill;
+        hill.shape = Hill{{random.vector(20)}, random.log_between(0.01, 100), random.log_between(0.05, 5)};
+        const double height = std::get<Hill>(hill.shape).apex.metres.z;
+        const glm::dvec3 eye{random.between(-20, 20), random.between(-20, 20), height};
+        ImageGenerator generator(scene_of({hill}));
+        all += compare_with_reference(generator, look(eye, {{30.0 * random.below(12)}, {0}, {0}}, 33, 21, 60));
+    }
+    CHECK(all.objects > 0);
+    CHECK(all.wrong_identity == 0);
+    CHECK(all.wrong_depth == 0);
 }
 
 TEST_CASE("solids that touch all along a circle, or share a limb, are told apart") {

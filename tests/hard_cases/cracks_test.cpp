@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ig_core/image_generator.h"
+#include "ig_core/scene/solid.h"
 #include "tests/ig_core/random_objects.h"
 
 using namespace quadrig;
@@ -42,9 +43,12 @@ BoundingPlane random_cut(Randomness& random, const Subject& subject) {
     return {{normal.x, normal.y, normal.z, -glm::dot(normal, through)}};
 }
 
+/// Outside the whole solid by more than k_near: where a solid is not drawn because of the eye, a part of it may be.
 View random_eye(Randomness& random, const Subject& subject) {
     const glm::dvec3 out = random.direction();
-    const double distance = subject.size * random.between(1.2, 6);
+    const Solid whole = make_solid(subject.whole);
+    const double reach = glm::distance(whole.anchor.metres, subject.centre) + whole.radius;
+    const double distance = std::max(subject.size * random.between(1.2, 6), reach + 2 * kNearDepth);
     return {{subject.centre + distance * out},
             eye_from_scene_rotation(attitude_towards(-out, random.between(-180, 180))),
             ImagePlane::symmetric(kWidth, kHeight, Degrees::from_radians(2.5 * subject.size / distance))};

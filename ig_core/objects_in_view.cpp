@@ -30,10 +30,8 @@ void ObjectsInView::select(std::span<const Solid> solids, std::span<const Boundi
     if (!same_view || !same_solids) {
         find_objects(spheres, view, workers);
         sort_by_depth();
-        on_strips_.sort(strips_of(image), selected_.size(), [&](std::size_t place) {
-            const ImageBounds& b = bounds(static_cast<std::uint32_t>(place));
-            return strips_between(image, b.z_from, b.z_to);
-        });
+        on_strips_.sort(strips_of(image), selected_.size(),
+                        [&](std::size_t place) { return strips_[front_to_back_[place]]; });
     }
     keep_outlines(moved, same_view);
 }
@@ -41,6 +39,7 @@ void ObjectsInView::select(std::span<const Solid> solids, std::span<const Boundi
 void ObjectsInView::find_objects(std::span<const BoundingSphere> spheres, const View& view, Workers& workers) {
     may_be_seen_.resize(solids_.size());
     bounds_.resize(solids_.size());
+    strips_.resize(solids_.size());
     const auto walls = walls_of(view);
     const auto task = [&](int block, int) {
         const std::size_t begin = static_cast<std::size_t>(block) * kSelectBlock;
@@ -49,6 +48,7 @@ void ObjectsInView::find_objects(std::span<const BoundingSphere> spheres, const 
             if (may_be_seen_[i] == 0) continue;
             bounds_[i] = image_bounds(solids_[i], view.eye, view.eye_from_scene);
             may_be_seen_[i] = may_show_on(view.image, bounds_[i]);
+            strips_[i] = strips_between(view.image, bounds_[i].z_from, bounds_[i].z_to);
         }
     };
     workers.run(static_cast<int>((solids_.size() + kSelectBlock - 1) / kSelectBlock), std::ref(task));

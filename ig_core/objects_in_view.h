@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ig_core/outline/image_bounds.h"
@@ -54,8 +55,9 @@ class ObjectsInView {
     };
 
     std::span<const Solid> solids_;
-    std::vector<std::uint8_t> may_be_seen_;  // by object
-    std::vector<ImageBounds> bounds_;        // of the objects that may be seen
+    std::vector<std::uint8_t> may_be_seen_;    // by object
+    std::vector<ImageBounds> bounds_;          // of the objects that may be seen
+    std::vector<std::pair<int, int>> strips_;  // theirs too, first and last
     std::vector<std::uint32_t> selected_, front_to_back_, depth_bins_;
     StripIndex on_strips_;
 

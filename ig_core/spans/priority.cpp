@@ -14,7 +14,7 @@ constexpr double kCrossingWidth = 1.0 / 16.0;
 constexpr double kLeastOverlap = 1.0 / 512.0;
 /// Surfaces that seem to cross more often than this on a row, or spans cut more often, agree to within rounding.
 constexpr std::size_t kMaxCrossings = kMaxPieces - 1;
-constexpr int kMaxSplits = 8;
+constexpr int kMaxSplits = 64;
 /// After so many guesses at a crossing's place an interval is halved.
 constexpr int kMostGuesses = 3;
 

@@ -40,7 +40,7 @@ struct RowWorker {
     RowSweep sweep;
     RowShader shader;
     std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
-    std::uint64_t span_count = 0;
+    std::uint64_t span_count = 0, pair_count = 0;
 };
 
 /// Rows, a bit each, that lie within the bounds of something.
@@ -253,7 +253,7 @@ template <class Draw>
 void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, bool everything_opaque,
                                       const PlaneSurfaces& seen_planes, Draw&& draw) {
     for (RowWorker& worker : row_workers)
-        worker.outline_time = worker.sweep_time = worker.draw_time = {}, worker.span_count = 0;
+        worker.outline_time = worker.sweep_time = worker.draw_time = {}, worker.span_count = worker.pair_count = 0;
     const int height = view.image.height;
     const auto task = [&](int strip, int worker) {
         RowWorker& own = row_workers[static_cast<std::size_t>(worker)];
@@ -270,6 +270,7 @@ void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, 
             own.sweep.spans.swap(own.spans[r]);
             own.span_count += own.sweep.spans.size();
             own.sweep.sweep(rows[r]);
+            own.pair_count += own.sweep.pairs;
             const auto swept = Clock::now();
             draw(rows[r], own);
             const auto drawn = Clock::now();
@@ -318,7 +319,8 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     g.work.pixels = static_cast<std::uint64_t>(view.image.width) * static_cast<std::uint64_t>(view.image.height);
     for (RowWorker& worker : g.row_workers) {
         const RowShader::Work drawn = worker.shader.take_work();
-        g.work.spans += worker.span_count, g.work.stretches += drawn.stretches, g.work.samples += drawn.samples;
+        g.work.spans += worker.span_count, g.work.pairs += worker.pair_count, g.work.stretches += drawn.stretches,
+            g.work.samples += drawn.samples;
         g.work.terms += drawn.terms, g.work.edge_pixels += drawn.edge_pixels;
     }
 

@@ -23,6 +23,7 @@ struct FrameWork {
     std::uint64_t objects = 0;      ///< in view
     std::uint64_t outlines = 0;     ///< made: of those that something may be seen of
     std::uint64_t spans = 0;        ///< made of them and of all else, the hidden ones that were asked for too
+    std::uint64_t pairs = 0;        ///< of spans on a row, in doubt which of them is in front
     std::uint64_t stretches = 0;    ///< of surfaces, shaded at a time
     std::uint64_t samples = 0;      ///< shaded
     std::uint64_t terms = 0;        ///< of textures, that samples of their own were asked for

@@ -67,7 +67,10 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
         auto priority = order_by_bounds(own.depth, extents_[other].depth);
         if (!priority) {
             priority = order_of_whole(index, other);
-            if (!priority) priority = priority_of(spans[index], spans[other], row, depths_, crossing_pieces_);
+            if (!priority) {
+                priority = priority_of(spans[index], spans[other], row, depths_, crossing_pieces_);
+                ++pairs;
+            }
             if (*priority == Priority::crossing) return cut(first_order, other, row);
             orders_.push_back({other, *priority});
         }
@@ -144,6 +147,7 @@ void RowSweep::sweep(const PixelRow& row) {
     starts_.clear();
     orders_.clear();
     pieces_.clear();
+    pairs = 0;
     extents_.clear();
     first_piece_ = static_cast<std::uint32_t>(spans.size());
     depths_.start(row);

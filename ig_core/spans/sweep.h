@@ -27,6 +27,7 @@ class RowSweep {
     std::vector<RowSpan> spans;
     std::vector<LayerRun> runs;
     std::vector<std::uint32_t> layers;  ///< indices into `spans`
+    std::uint64_t pairs = 0;            ///< of spans that bounds of their depths did not put in order
 
   private:
     void insert(std::uint32_t index, const PixelRow& row);

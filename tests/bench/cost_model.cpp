@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -55,29 +56,41 @@ Measured measure(std::string name, ImageGenerator& generator, View view, int fra
 
 double stage(const Measured& m, Stage which) { return m.stages[static_cast<std::size_t>(which)]; }
 
-constexpr std::size_t kCosts = 5;
-using Costs = std::array<double, kCosts>;
-constexpr std::array<const char*, kCosts> kCostNames{"stretch of a surface", "sample", "term of a sample",
-                                                     "pixel that an edge passes through", "pixel"};
-Costs counts(const FrameWork& work) {
-    return {static_cast<double>(work.stretches), static_cast<double>(work.samples), static_cast<double>(work.terms),
-            static_cast<double>(work.edge_pixels), static_cast<double>(work.pixels)};
-}
+/// What a stage's time is made of: names and numbers of the things it does.
+struct Made {
+    Stage stage;
+    std::vector<const char*> names;
+    std::vector<double> (*counts)(const FrameWork&);
+};
+double number(std::uint64_t count) { return static_cast<double>(count); }
+const Made kOutlining{
+    Stage::outline, {"outline of an object"}, [](const FrameWork& w) { return std::vector{number(w.outlines)}; }};
+const Made kSweeping{
+    Stage::sweep, {"span of a row, until it is a run", "pair of spans in doubt"}, [](const FrameWork& w) {
+        return std::vector{number(w.spans), number(w.pairs)};
+    }};
+const Made kShading{
+    Stage::shade,
+    {"stretch of a surface", "sample", "term of a sample", "pixel that an edge passes through", "pixel"},
+    [](const FrameWork& w) {
+        return std::vector{number(w.stretches), number(w.samples), number(w.terms), number(w.edge_pixels),
+                           number(w.pixels)};
+    }};
 
-/// Costs of shading in ns, none negative, with the least squares of relative errors, from all views but one.
-Costs fit(const std::vector<Measured>& views, std::size_t left_out) {
-    Costs costs{};
+/// Costs in ns, none negative, with the least squares of errors relative to the frame's time, from all views but one.
+std::vector<double> fit(const std::vector<Measured>& views, const Made& made, std::size_t left_out) {
+    std::vector<double> costs(made.names.size(), 0.0);
     for (int round = 0; round < 20'000; ++round)
-        for (std::size_t k = 0; k < kCosts; ++k) {
+        for (std::size_t k = 0; k < costs.size(); ++k) {
             double over = 0, under = 0;
             for (std::size_t v = 0; v < views.size(); ++v) {
                 if (v == left_out) continue;
-                const double time = 1e6 * stage(views[v], Stage::shade);
-                const Costs n = counts(views[v].work);
-                double rest = time;
-                for (std::size_t j = 0; j < kCosts; ++j)
+                const double weight = 1.0 / (views[v].frame * views[v].frame);
+                const std::vector<double> n = made.counts(views[v].work);
+                double rest = 1e6 * stage(views[v], made.stage);
+                for (std::size_t j = 0; j < costs.size(); ++j)
                     if (j != k) rest -= costs[j] * n[j];
-                over += n[k] * rest / (time * time), under += n[k] * n[k] / (time * time);
+                over += weight * n[k] * rest, under += weight * n[k] * n[k];
             }
             costs[k] = under > 0 ? std::max(0.0, over / under) : 0.0;
         }
@@ -86,38 +99,33 @@ Costs fit(const std::vector<Measured>& views, std::size_t left_out) {
 
 void print_model(const std::vector<Measured>& views) {
     const std::size_t all = views.size();
-    const Costs costs = fit(views, all);
     std::printf("| | ns |\n|---|---|\n");
-    double outlines = 0, outline_time = 0, spans = 0, span_time = 0;
-    for (const Measured& m : views) {
-        outlines += static_cast<double>(m.work.outlines), outline_time += 1e6 * stage(m, Stage::outline);
-        spans += static_cast<double>(m.work.spans), span_time += 1e6 * stage(m, Stage::sweep);
+    for (const Made* made : {&kOutlining, &kSweeping, &kShading}) {
+        const std::vector<double> costs = fit(views, *made, all);
+        for (std::size_t k = 0; k < costs.size(); ++k) std::printf("| %s | %.2f |\n", made->names[k], costs[k]);
     }
-    const double per_outline = outline_time / outlines, per_span = span_time / spans;
-    std::printf("| outline of an object | %.0f |\n| span of a row, until it is a run | %.0f |\n", per_outline,
-                per_span);
-    for (std::size_t k = 0; k < kCosts; ++k) std::printf("| %s | %.2f |\n", kCostNames[k], costs[k]);
     std::printf(
-        "\n| view | outlines | spans | stretches | samples, M | terms, M | edge pixels | measured, ms | predicted | "
-        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
+        "\n| view | outlines | spans | pairs | stretches | samples, M | terms, M | edge pixels | measured, ms | "
+        "predicted | |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (std::size_t v = 0; v < all; ++v) {
         const Measured& m = views[v];
-        const Costs others = fit(views, v), n = counts(m.work);
-        double predicted = stage(m, Stage::select) + 1e-6 * (per_outline * static_cast<double>(m.work.outlines) +
-                                                             per_span * static_cast<double>(m.work.spans));
-        for (std::size_t k = 0; k < kCosts; ++k) predicted += 1e-6 * others[k] * n[k];
-        std::printf("| %s | %llu | %llu | %llu | %.2f | %.2f | %llu | %.1f | %.1f | %+.0f %% |\n", m.name.c_str(),
-                    static_cast<unsigned long long>(m.work.outlines), static_cast<unsigned long long>(m.work.spans),
-                    static_cast<unsigned long long>(m.work.stretches), 1e-6 * n[1], 1e-6 * n[2],
-                    static_cast<unsigned long long>(m.work.edge_pixels), m.frame, predicted,
-                    100 * (predicted / m.frame - 1));
+        double predicted = stage(m, Stage::select);
+        for (const Made* made : {&kOutlining, &kSweeping, &kShading}) {
+            const std::vector<double> others = fit(views, *made, v), n = made->counts(m.work);
+            predicted += 1e-6 * std::inner_product(others.begin(), others.end(), n.begin(), 0.0);
+        }
+        const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+        std::printf("| %s | %llu | %llu | %llu | %llu | %.2f | %.2f | %llu | %.1f | %.1f | %+.0f %% |\n",
+                    m.name.c_str(), count(m.work.outlines), count(m.work.spans), count(m.work.pairs),
+                    count(m.work.stretches), 1e-6 * number(m.work.samples), 1e-6 * number(m.work.terms),
+                    count(m.work.edge_pixels), m.frame, predicted, 100 * (predicted / m.frame - 1));
     }
 }
 
 std::vector<Measured> bench_views(int width, int height) {
     const std::filesystem::path folder = std::filesystem::path(QUADRIG_SOURCE_DIR) / "config/scenes/bench";
     std::vector<Measured> views;
-    for (const char* scene : {"landscape", "trees", "dense"}) {
+    for (const char* scene : {"landscape", "trees", "dense", "wood"}) {
         ImageGenerator generator(config::read_scene(folder / (std::string(scene) + ".toml")), 1);
         for (const char* eye : {"2m", "150m", "1500m"}) {
             const config::Camera camera =

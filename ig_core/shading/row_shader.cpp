@@ -10,7 +10,7 @@
 namespace quadrig {
 namespace {
 
-/// A surface hidden for fewer columns than this is shaded on through: a new vector costs more.
+/// A surface hidden for no more columns than this is shaded on through: a new vector costs more.
 constexpr int kLongestIdleRun = 12;
 
 /// Where a span is sampled: on the mean of its sub-scan lines, between the means of their ends, which a convex outline

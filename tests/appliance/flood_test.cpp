@@ -66,7 +66,7 @@ Flood flood(const HostSocket& host, double seconds) {
 TEST_CASE("A flood of datagrams, one in ten valid, costs a live run no valid one and no frame") {
     const auto out = scratch_directory();
     Program program({"run", "--scene", scratch_file("scene.toml", small_scene()), "--link", "cigi://127.0.0.1:0",
-                     "--size", "320x240", "--threads", "1", "--report", out / "r.json"});
+                     "--size", "160x120", "--threads", "1", "--report", out / "r.json"});
     const auto port = program.number_after("listens on port ");
     REQUIRE(port);
     const HostSocket host(*port);

@@ -7,6 +7,7 @@
 #include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/frame_run.h"
+#include "appliance/option_values.h"
 #include "appliance/outlets.h"
 #include "appliance/painter.h"
 #include "appliance/run_options.h"

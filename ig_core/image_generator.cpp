@@ -1,6 +1,5 @@
 #include "ig_core/image_generator.h"
 
-#include <hwy/cache_control.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/objects_in_view.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
@@ -176,8 +176,7 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
         // Objects come from all over the scene: what each is first asked is fetched some turns ahead.
         constexpr std::size_t kTurnsAhead = 6;
         const std::uint32_t ahead = on_strip[std::min(i + kTurnsAhead, on_strip.size() - 1)];
-        hwy::Prefetch(&objects.bounds(ahead));
-        hwy::Prefetch(&paints.objects[objects.object(ahead)].translucent);
+        fetch(objects.bounds(ahead)), fetch(paints.objects[objects.object(ahead)].translucent);
         const ImageBounds& around = objects.bounds(place);
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
         const StripCover::Rows open = rows_within(rows, around) & worker.cover.open(columns, around.near_u());

@@ -1,11 +1,11 @@
 #include "ig_core/spans/object_spans.h"
 
-#include <hwy/cache_control.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/spans/row_spans.h"
 
 namespace quadrig {
@@ -101,10 +101,8 @@ void ObjectSpans::start(const Outline& outline, std::uint32_t index, bool opaque
     band_ = kHighestBand;
     for (Run& run : runs_) run.first = run.last = 0;
     // What the first row will ask for, one after the other.
-    hwy::Prefetch(outline.bands.data());
-    hwy::Prefetch(outline.changes.data());
-    hwy::Prefetch(outline.curves.data());
-    hwy::Prefetch(outline.lines.data());
+    fetch(std::span(outline.bands)), fetch(std::span(outline.changes));
+    fetch(std::span(outline.curves)), fetch(std::span(outline.lines));
 }
 
 ObjectSpans::Rows ObjectSpans::that_may_show() const {

@@ -12,6 +12,7 @@
 #include "ig_core/objects_in_view.h"
 #include "ig_core/scene/motion.h"
 #include "ig_core/shading/row_shader.h"
+#include "ig_core/spans/depth_on_line.h"
 #include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/seen_features.h"

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "ig_core/spans/depth_on_line.h"
+
 namespace quadrig {
 namespace {
 
@@ -74,7 +76,7 @@ void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
 }
 
 /// `depth` is that of the job's first sample.
-void set_plane(const std::array<float, 3>& outward, const DepthOnLine::Sample& depth, ShadeInput& in) {
+void set_plane(const std::array<float, 3>& outward, const DepthSample<double>& depth, ShadeInput& in) {
     in.kind = ShadeInput::Kind::plane;
     in.normal = outward;
     in.plane_u = static_cast<float>(depth.u);

@@ -26,78 +26,88 @@ struct CrossingsOnLine {
     std::array<double, kMaxCrossings> at;  // columns
 };
 
-/// Finds them between two columns that both spans cover.
+/// A line's columns that two spans are compared in, and what is found there.
+struct ComparedLine {
+    double from, to;
+    CrossingsOnLine* found;  // null: none of it is compared
+};
+
+/// Looks for them on two lines at once.
 class CrossingSearch {
   public:
-    CrossingSearch(const RowSpan& a, const RowSpan& b, const DepthOnLine& depth_a, const DepthOnLine& depth_b,
-                   bool points, CrossingsOnLine& found)
+    CrossingSearch(const RowSpan& a, const RowSpan& b, const DepthOnTwoLines& depth_a, const DepthOnTwoLines& depth_b,
+                   bool points)
         : sa_(a.surface),
           sb_(b.surface),
           a_(depth_a),
           b_(depth_b),
           points_(points),
-          a_wins_ties_(a.surface.priority < b.surface.priority),
-          found_(found) {
-        found_.count = 0;
-    }
+          a_wins_ties_(a.surface.priority < b.surface.priority) {}
 
-    void search(double from, double to) {
+    void search(const std::array<ComparedLine, 2>& lines) {
         // Most pairs lie clear of one another: the one that spans more depth passes by the other's bounds. (Those are
         // of the first and the last sub-scan line; what lines between could add is less than a sub-scan line high.)
         const bool a_is_wide = sa_.near_u - sa_.far_u >= sb_.near_u - sb_.far_u;
-        const DepthOnLine &wide = a_is_wide ? a_ : b_, &narrow = a_is_wide ? b_ : a_;
+        const DepthOnTwoLines &wide = a_is_wide ? a_ : b_, &narrow = a_is_wide ? b_ : a_;
         const Surface& other = a_is_wide ? sb_ : sa_;
-        const DepthOnLine::Sample wide_l = wide.at(from), wide_r = wide.at(to);
-        if (std::min(wide_l.u, wide_r.u) > other.near_u * (1.0 + kSameDepth)) {
-            found_.starts_in_front = a_is_wide;
-            return;
+        const TwoLines from{lines[0].from, lines[1].from}, to{lines[0].to, lines[1].to}, width = to - from;
+        const DepthSample<TwoLines> wide_l = wide.at(from), wide_r = wide.at(to);
+        const auto nearer = smaller(wide_l.u, wide_r.u) > other.near_u * (1.0 + kSameDepth);
+        const TwoLines most = smaller(wide_l.most_along(width), wide_r.most_along(-width));
+        const auto clear = nearer | (most * (1.0 + kSameDepth) < other.far_u);
+        bool all_clear = true;
+        for (line_ = 0; line_ < 2; ++line_) {
+            if (lines[line_].found == nullptr) continue;
+            lines[line_].found->starts_in_front = (nearer[line_] != 0) == a_is_wide;
+            all_clear = all_clear && clear[line_] != 0;
         }
-        const double width = to - from;
-        const double most = std::min(most_along(wide_l, width), most_along(wide_r, -width));
-        if (most * (1.0 + kSameDepth) < other.far_u) {
-            found_.starts_in_front = !a_is_wide;
-            return;
+        if (all_clear) return;
+        const DepthSample<TwoLines> narrow_l = narrow.at(from), narrow_r = narrow.at(to);
+        const auto end = [&](double column, const DepthSample<TwoLines>& of_wide,
+                             const DepthSample<TwoLines>& of_narrow) {
+            const DepthSample<double> w{of_wide.u[line_], of_wide.slope[line_]};
+            const DepthSample<double> n{of_narrow.u[line_], of_narrow.slope[line_]};
+            return a_is_wide ? end_of(column, w, n) : end_of(column, n, w);
+        };
+        for (line_ = 0; line_ < 2; ++line_) {
+            if (lines[line_].found == nullptr || clear[line_] != 0) continue;
+            found_ = lines[line_].found;
+            const End left = end(lines[line_].from, wide_l, narrow_l), right = end(lines[line_].to, wide_r, narrow_r);
+            found_->starts_in_front = left.in_front;
+            between(left, right);
         }
-        const DepthOnLine::Sample narrow_l = narrow.at(from), narrow_r = narrow.at(to);
-        const End left = a_is_wide ? end(from, wide_l, narrow_l) : end(from, narrow_l, wide_l);
-        const End right = a_is_wide ? end(to, wide_r, narrow_r) : end(to, narrow_r, wide_r);
-        found_.starts_in_front = left.in_front;
-        between(left, right);
     }
 
     /// By distances that are linear between a span's ends on the line (Gardner 1984, 2.1). Ground and decks have no
     /// ends and keep their own.
-    void search_linear(const RowSpan& a, const RowSpan& b, std::size_t line, double from, double to) {
-        const double gap_l = distance(b_, b, line, from) - distance(a_, a, line, from);
-        const double gap_r = distance(b_, b, line, to) - distance(a_, a, line, to);
+    void search_linear(const RowSpan& a, const RowSpan& b, std::size_t row_line, const ComparedLine& compared) {
+        line_ = row_line % 2, found_ = compared.found;
+        const auto [from, to, _] = compared;
+        const double gap_l = distance(b_, b, row_line, from) - distance(a_, a, row_line, from);
+        const double gap_r = distance(b_, b, row_line, to) - distance(a_, a, row_line, to);
         const auto in_front = [&](double gap) { return gap > 0.0 || (gap == 0.0 && a_wins_ties_); };
-        found_.starts_in_front = in_front(gap_l);
-        if (found_.starts_in_front != in_front(gap_r))
-            found_.at[found_.count++] = from + (to - from) * (gap_l / (gap_l - gap_r));
+        found_->starts_in_front = in_front(gap_l);
+        if (found_->starts_in_front != in_front(gap_r))
+            found_->at[found_->count++] = from + (to - from) * (gap_l / (gap_l - gap_r));
     }
 
   private:
-    /// The larger end of the tangent, above which no concave depth rises; infinite if that says nothing.
-    [[nodiscard]] static double most_along(const DepthOnLine::Sample& tangent, double width) {
-        const double end = tangent.u + tangent.slope * width;
-        return std::isfinite(end) ? std::max(tangent.u, end) : std::numeric_limits<double>::infinity();
-    }
-
-    [[nodiscard]] static double distance(const DepthOnLine& depth, const RowSpan& span, std::size_t line,
-                                         double column) {
-        if (span.surface.outline == nullptr) return 1.0 / depth.value(column);
-        const double left = 1.0 / depth.value(span.from[line]), right = 1.0 / depth.value(span.to[line]);
-        return left + (right - left) * ((column - span.from[line]) / (span.to[line] - span.from[line]));
+    [[nodiscard]] double distance(const DepthOnTwoLines& depth, const RowSpan& span, std::size_t row_line,
+                                  double column) const {
+        const auto at = [&](double where) { return 1.0 / depth.at(where, line_).u; };
+        if (span.surface.outline == nullptr) return at(column);
+        const double from = span.from[row_line], to = span.to[row_line], left = at(from), right = at(to);
+        return left + (right - left) * ((column - from) / (to - from));
     }
 
     struct End {
         double column;
-        DepthOnLine::Sample a, b;
+        DepthSample<double> a, b;
         bool in_front, same;
     };
 
-    [[nodiscard]] End end(double column) const { return end(column, a_.at(column), b_.at(column)); }
-    [[nodiscard]] End end(double column, const DepthOnLine::Sample& a, const DepthOnLine::Sample& b) const {
+    [[nodiscard]] End end_at(double column) const { return end_of(column, a_.at(column, line_), b_.at(column, line_)); }
+    [[nodiscard]] End end_of(double column, const DepthSample<double>& a, const DepthSample<double>& b) const {
         const double rounding = kSameDepth * std::abs(b.u);
         const bool same = std::abs(a.u - b.u) <= rounding;
         return {column, a, b, same ? a_wins_ties_ : a.u > b.u, same};
@@ -129,18 +139,18 @@ class CrossingSearch {
         if (same_order && (left.column >= right.column || proven(left, right))) return;
         const double width = right.column - left.column;
         if (width <= (points_ ? 1.0 : kCrossingWidth)) {
-            if (same_order || found_.count == kMaxCrossings) return;
+            if (same_order || found_->count == kMaxCrossings) return;
             double share = 0.5;
             if (!points_) {
                 const double gap_l = std::abs(left.a.u - left.b.u), gap_r = std::abs(right.a.u - right.b.u);
                 if (gap_l + gap_r > 0.0) share = gap_l / (gap_l + gap_r);
             }
-            found_.at[found_.count++] = left.column + share * width;
+            found_->at[found_->count++] = left.column + share * width;
             return;
         }
         const bool guess = !same_order && !points_ && guesses < kMostGuesses;
         const double half = points_ ? std::floor(0.5 * width) : 0.5 * width;
-        const End middle = end(guess ? expected_crossing(left, right) : left.column + half);
+        const End middle = end_at(guess ? expected_crossing(left, right) : left.column + half);
         between(left, middle, guess ? guesses + 1 : 0);
         between(middle, right, guess ? guesses + 1 : 0);
     }
@@ -157,9 +167,10 @@ class CrossingSearch {
     }
 
     const Surface &sa_, &sb_;
-    const DepthOnLine &a_, &b_;
+    const DepthOnTwoLines &a_, &b_;
     bool points_, a_wins_ties_;
-    CrossingsOnLine& found_;
+    std::size_t line_ = 0;  // of the two
+    CrossingsOnLine* found_ = nullptr;
 };
 
 /// Columns in which two spans overlap on a sub-scan line; none if they lie apart there, but for rounding.
@@ -199,8 +210,9 @@ void RowDepths::start(const PixelRow& row) {
 std::size_t RowDepths::place_of(RowSpan& span) {
     if (span.depths < 0) {
         span.depths = static_cast<int>(depths_.size());
-        for (std::size_t line = 0; line < static_cast<std::size_t>(row_->sub_lines); ++line)
-            depths_.emplace_back(span.surface, *row_, row_->z[line]);
+        const auto lines = static_cast<std::size_t>(row_->sub_lines);
+        for (std::size_t line = 0; line < lines; line += 2)
+            depths_.emplace_back(span.surface, *row_, TwoLines{row_->z[line], row_->z[std::min(line + 1, lines - 1)]});
     }
     return static_cast<std::size_t>(span.depths);
 }
@@ -232,28 +244,41 @@ Priority priority_of(RowSpan& a, RowSpan& b, const PixelRow& row, RowDepths& dep
     std::array<CrossingsOnLine, kMaxSubScanLines> crossings;
     bool front = false, behind = false;
     const CrossingsOnLine* model = nullptr;
-    for (std::size_t line = 0; line < lines; ++line) {
-        if (apart[line]) continue;
+    const auto compared_columns = [&](std::size_t line) {
         auto [from, to] = overlap_on_line(a, b, line);
         if (row.point_samples) {
             from = std::ceil(from - 0.5) + 0.5, to = std::ceil(to - 0.5) - 0.5;
             apart[line] = !(from <= to);
-            if (apart[line]) continue;
-        }
-        if (!row.point_samples) {
+        } else {
             const double inset = std::min(2.0 * kCrossingWidth, 0.25 * (to - from));
             from += inset, to -= inset;
         }
-        CrossingsOnLine& on_line = crossings[line];
-        CrossingSearch search(a, b, depths.at(place_a, line), depths.at(place_b, line), row.point_samples, on_line);
-        if (row.distance == DistanceRule::exact)
-            search.search(from, to);
-        else
-            search.search_linear(a, b, line, from, to);
-        if (a.splits >= kMaxSplits) on_line.count = 0;
-        if (model == nullptr || model->count == 0) model = &on_line;
-        front = front || on_line.starts_in_front || on_line.count > 0;
-        behind = behind || !on_line.starts_in_front || on_line.count > 0;
+        crossings[line].count = 0;
+        return ComparedLine{from, to, apart[line] ? nullptr : &crossings[line]};
+    };
+    for (std::size_t first = 0; first < lines; first += 2) {
+        std::array<ComparedLine, 2> compared{};
+        const std::size_t count = std::min<std::size_t>(2, lines - first);
+        for (std::size_t i = 0; i < count; ++i)
+            if (!apart[first + i]) compared[i] = compared_columns(first + i);
+        if (compared[0].found == nullptr && compared[1].found == nullptr) continue;
+        if (compared[0].found == nullptr) compared[0] = {compared[1].from, compared[1].to, nullptr};
+        if (compared[1].found == nullptr) compared[1] = {compared[0].from, compared[0].to, nullptr};
+        CrossingSearch search(a, b, depths.at(place_a, first), depths.at(place_b, first), row.point_samples);
+        if (row.distance == DistanceRule::exact) {
+            search.search(compared);
+        } else {
+            for (std::size_t i = 0; i < count; ++i)
+                if (compared[i].found != nullptr) search.search_linear(a, b, first + i, compared[i]);
+        }
+        for (const ComparedLine& line : compared) {
+            if (line.found == nullptr) continue;
+            CrossingsOnLine& on_line = *line.found;
+            if (a.splits >= kMaxSplits) on_line.count = 0;
+            if (model == nullptr || model->count == 0) model = &on_line;
+            front = front || on_line.starts_in_front || on_line.count > 0;
+            behind = behind || !on_line.starts_in_front || on_line.count > 0;
+        }
     }
     if (!behind) return Priority::front;
     if (!front || a.splits >= kMaxSplits) return Priority::behind;

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "ig_core/spans/row_span.h"
+#include "ig_core/spans/depth_on_line.h"
 
 namespace quadrig {
 
@@ -46,14 +46,17 @@ class RowDepths {
   public:
     /// Forgets the last row's; `row` has to live until the next start.
     void start(const PixelRow& row);
-    /// Place of a span's first line. Its pieces share it.
+    /// Place of a span's first lines. Its pieces share it.
     std::size_t place_of(RowSpan& span);
-    /// Valid until another span's place is asked for.
-    [[nodiscard]] const DepthOnLine& at(std::size_t place, std::size_t line) const { return depths_[place + line]; }
+    /// On a line and the next, twice the last where that is one too many; `line` is even. Valid until another span's
+    /// place is asked for.
+    [[nodiscard]] const DepthOnTwoLines& at(std::size_t place, std::size_t line) const {
+        return depths_[place + line / 2];
+    }
 
   private:
     const PixelRow* row_ = nullptr;
-    std::vector<DepthOnLine> depths_;
+    std::vector<DepthOnTwoLines> depths_;
 };
 
 /// Order of span `a` relative to `b` wherever both cover a sub-scan line (at column centres, if the row takes point

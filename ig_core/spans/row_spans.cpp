@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ig_core/spans/depth_on_line.h"
+
 namespace quadrig {
 namespace {
 
@@ -82,15 +84,11 @@ void bound_depth(const PixelRow& row, RowSpan& span) {
     std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
     while (!(span.from[first] < span.to[first])) ++first;
     while (!(span.from[last] < span.to[last])) --last;
-    double least = std::numeric_limits<double>::infinity(), most = 0.0;
-    for (const std::size_t line : {first, last}) {
-        const DepthOnLine depth(span.surface, row, row.z[line]);
-        least = std::min(least, depth.least(span.from[line], span.to[line]));
-        most = std::max(most, depth.most(span.from[line], span.to[line]));
-        if (first == last) break;
-    }
-    span.surface.near_u = std::min(span.surface.near_u, most);
-    span.surface.far_u = std::max(span.surface.far_u, least);
+    const TwoLines from{span.from[first], span.from[last]}, to{span.to[first], span.to[last]};
+    const DepthOnTwoLines depth(span.surface, row, TwoLines{row.z[first], row.z[last]});
+    const TwoLines least = depth.least(from, to), most = depth.most(from, to);
+    span.surface.near_u = std::min(span.surface.near_u, std::max(most[0], most[1]));
+    span.surface.far_u = std::max(span.surface.far_u, std::min(least[0], least[1]));
 }
 
 void add_plane_spans(const PlaneSurfaces& planes, std::span<const std::uint8_t> deck_opaque, const PixelRow& row,

@@ -1,12 +1,9 @@
-#include "ig_core/spans/row_span.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "ig_core/spans/depth_on_line.h"
 
 namespace quadrig {
 
-DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
+template <class Number>
+DepthOn<Number>::DepthOn(const Surface& surface, const PixelRow& row, Number z)
     : plane_(surface.kind != Surface::Kind::quadric) {
     if (surface.kind != Surface::Kind::quadric && surface.kind != Surface::Kind::face) {
         u0_ = surface.plane.at + surface.plane.along_x * row.left + surface.plane.along_z * z;
@@ -14,7 +11,7 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
         return;
     }
     const EyeSolid& e = surface.outline->solid;
-    const double zeta = z - e.z0;
+    const Number zeta = z - e.z0;
     xi0_ = row.left - e.x0;
     step_ = row.column_step;
     const auto on_plane = [&](const EyePlane& plane) {
@@ -32,17 +29,20 @@ DepthOnLine::DepthOnLine(const Surface& surface, const PixelRow& row, double z)
         return;
     }
     b0_ = e.v.y + e.v.z * zeta, b1_ = e.v.x, inverse_s_ = 1.0 / e.s;
-    a_[0] = e.m.yy + zeta * (2.0 * e.m.yz + zeta * e.m.zz), a_[1] = 2.0 * (e.m.xy + e.m.xz * zeta), a_[2] = e.m.xx;
-    d_[0] = e.limb.yy + zeta * (2.0 * e.limb.yz + zeta * e.limb.zz), d_[1] = 2.0 * (e.limb.xy + e.limb.xz * zeta);
-    d_[2] = e.limb.xx;
+    a0_ = e.m.yy + zeta * (2.0 * e.m.yz + zeta * e.m.zz), a1_ = 2.0 * (e.m.xy + e.m.xz * zeta), a2_ = e.m.xx;
+    d0_ = e.limb.yy + zeta * (2.0 * e.limb.yz + zeta * e.limb.zz), d1_ = 2.0 * (e.limb.xy + e.limb.xz * zeta);
+    d2_ = e.limb.xx;
 }
 
-double DepthOnLine::least(double from, double to) const { return std::min(value(from), value(to)); }
-
-double DepthOnLine::most(double from, double to) const {
-    const Sample middle = at(0.5 * (from + to));
-    const double rise = 0.5 * (to - from) * std::abs(middle.slope);
-    return std::isfinite(rise) ? middle.u + rise : std::numeric_limits<double>::infinity();
+template <class Number>
+Number DepthOn<Number>::most(Number from, Number to) const {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    const DepthSample<Number> middle = at(0.5 * (from + to));
+    const Number rise = 0.5 * (to - from) * (middle.slope < 0.0 ? -middle.slope : middle.slope);
+    return rise < kInfinite ? middle.u + rise : Number{} + kInfinite;
 }
+
+template class DepthOn<double>;
+template class DepthOn<TwoLines>;
 
 }  // namespace quadrig

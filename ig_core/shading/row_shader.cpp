@@ -39,25 +39,37 @@ SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
 /// Whether neither span hides any of the other: faces of one object, and objects that abut.
 bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
     constexpr double kRounding = 1e-6;  // columns
-    if (a.surface.outline != nullptr && a.surface.outline == b.surface.outline) return true;
+    double most = 0.0;                  // of any sub-scan line that both cover
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
-        if (std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]) > kRounding) return false;
+        most = std::max(most, std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]));
+    return (most <= kRounding) | ((a.surface.outline != nullptr) & (a.surface.outline == b.surface.outline));
+}
+
+/// Whether layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
+/// pixel: so do most.
+bool side_by_side_before_whole(const PixelRow& row, const LayerRun& run, std::span<const CompositeLayer> layers) {
+    const RowSpan& last = *layers.back().span;
+    if (!(last.surface.opaque & (last.inner_from <= run.from) & (last.inner_to >= run.to))) return false;
+    for (std::size_t i = 1; i + 1 < layers.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (!side_by_side(row, *layers[i].span, *layers[j].span)) return false;
     return true;
 }
 
-/// Whether the layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
-/// pixel: so do most.
-bool side_by_side_before_whole(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
-    const auto layer = [&](std::uint32_t i) -> const RowSpan& {
-        return sweep.spans[sweep.layers[run.first_layer + i]];
-    };
-    const std::uint32_t in_front = run.layer_count - 1;
-    const RowSpan& last = layer(in_front);
-    if (!last.surface.opaque || last.inner_from > run.from || last.inner_to < run.to) return false;
-    for (std::uint32_t i = 1; i < in_front; ++i)
-        for (std::uint32_t j = 0; j < i; ++j)
-            if (!side_by_side(row, layer(i), layer(j))) return false;
-    return true;
+/// Puts layers that lie side by side in one group, one behind the other.
+void group(const PixelRow& row, std::span<CompositeLayer> layers) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        CompositeLayer layer = layers[i];
+        // Beside all layers from some group on: it changes nothing to draw it with that group.
+        std::size_t place = i;
+        layer.group = static_cast<std::uint32_t>(i);
+        for (std::size_t j = i; j-- > 0 && side_by_side(row, *layer.span, *layers[j].span);)
+            if (j == 0 || layers[j - 1].group != layers[j].group) layer.group = layers[j].group, place = j;
+        while (place < i && layers[place].group == layer.group) ++place;
+        const std::span<CompositeLayer> moved = layers.subspan(place, i + 1 - place);
+        std::shift_right(moved.begin(), moved.end(), 1);
+        moved[0] = layer;
+    }
 }
 
 void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
@@ -219,17 +231,27 @@ void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
     work_.samples += used;
 }
 
-void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
-    partial_.clear();
-    for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
-        const RowSpan& span = sweep.spans[sweep.layers[i]];
-        // Beside all layers from some group on: it changes nothing to draw it with that group.
-        std::size_t place = partial_.size();
-        std::uint32_t group = i;
-        for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
-            if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
-        while (place > 0 && group != i && partial_[place - 1].group != group) --place;
-        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {sample(i, run.from), group, &span});
+void RowShader::lay_out(const PixelRow& row, const RowSweep& sweep) {
+    layers_.resize(sweep.layers.size());
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        const ShadeJob& job = jobs_[job_of_layer_[i]];
+        layers_[i] = {job.buffer - static_cast<std::uint32_t>(job.from), 0, &sweep.spans[sweep.layers[i]]};
+    }
+    whole_.clear(), before_whole_.clear(), partial_.clear();
+    for (const LayerRun& run : sweep.runs) {
+        const std::span<CompositeLayer> layers = std::span(layers_).subspan(run.first_layer, run.layer_count);
+        const CompositeRun laid_out{run.from, run.to, layers};
+        if (!run.partial) {
+            whole_.push_back(laid_out);
+            continue;
+        }
+        work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
+        if (side_by_side_before_whole(row, run, layers)) {
+            before_whole_.push_back(laid_out);
+        } else {
+            group(row, layers);
+            partial_.push_back(laid_out);
+        }
     }
 }
 
@@ -245,26 +267,11 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
     }
     work_.terms += shade(inputs_, buffer_);
 
+    lay_out(row, sweep);
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
-    for (const LayerRun& run : sweep.runs) {
-        if (!run.partial) {
-            samples_.clear();
-            for (std::uint32_t i = 0; i < run.layer_count; ++i)
-                samples_.push_back(sample(run.first_layer + i, run.from));
-            composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
-            continue;
-        }
-        work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        if (side_by_side_before_whole(row, sweep, run)) {
-            partial_.clear();
-            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i)
-                partial_.push_back({sample(i, run.from), 0, &sweep.spans[sweep.layers[i]]});
-            composite_before_whole(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
-        } else {
-            group_layers(row, sweep, run);
-            composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
-        }
-    }
+    composite_whole(buffer_, whole_, row_);
+    composite_before_whole(buffer_, before_whole_, row.sub_lines, row_);
+    composite_partial(buffer_, partial_, row.sub_lines, row_);
     assert(all_numbers(row_, row.columns));
 }
 

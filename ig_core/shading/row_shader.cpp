@@ -132,15 +132,12 @@ const FramePaint* paint_of(const FramePaints& paints, const Surface& surface) {
 }
 
 /// Jobs are put in order by bins, the sky and lights first. What is asked of jobs of one bin is the same, so that they
-/// are shaded together and a processor foresees the next one's way; textures that share a number cost a little time.
-constexpr std::ptrdiff_t kTextureBins = 16;
-constexpr std::size_t kBins = 1 + 8 * kTextureBins;
-std::uint8_t bin_of(const FramePaints& paints, const Surface& surface, const ShadeJob& job) {
+/// are shaded together and a processor foresees the next one's way.
+constexpr std::size_t kBins = 1 + 4 * kPaintBins;
+std::uint8_t bin_of(const Surface& surface, const ShadeJob& job) {
     if (job.paint == nullptr) return 0;
-    const FramePaint& paint = *job.paint;
-    const std::ptrdiff_t texture = paint.texture == nullptr ? 0 : 1 + (paint.texture - paints.textures.data());
     const bool quadric = surface.kind == Surface::Kind::quadric, few = job.to - job.from <= kFewSamples;
-    return static_cast<std::uint8_t>(1 + 8 * (texture % kTextureBins) + 4 * paint.translucent + 2 * few + quadric);
+    return static_cast<std::uint8_t>(1 + 4 * job.paint->bin + 2 * few + quadric);
 }
 
 /// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
@@ -193,41 +190,48 @@ bool all_numbers(const ShadeBuffer& row, int columns) {
 #endif
 
 void RowShader::plan(const RowSweep& sweep) {
-    jobs_.clear();
-    job_of_span_.assign(sweep.spans.size(), -1);
+    last_of_span_.assign(sweep.spans.size(), 0);
     job_of_layer_.resize(sweep.layers.size());
+    if (jobs_.size() <= sweep.layers.size()) jobs_.resize(sweep.layers.size() + 1);
+    std::uint32_t count = 0;
     for (const LayerRun& run : sweep.runs) {
-        for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+        const int from = run.from, to = run.to;
+        const std::uint32_t last_layer = run.first_layer + run.layer_count;
+        for (std::uint32_t i = run.first_layer; i < last_layer; ++i) {
             const std::uint32_t span = sweep.layers[i];
-            std::int32_t& job = job_of_span_[span];
-            if (job < 0 || jobs_[static_cast<std::size_t>(job)].to + kLongestIdleRun < run.from) {
-                job = static_cast<std::int32_t>(jobs_.size());
-                jobs_.push_back({span, run.from, run.to});
-            }
-            jobs_[static_cast<std::size_t>(job)].to = run.to;
-            job_of_layer_[i] = static_cast<std::uint32_t>(job);
+            const LastJob last = last_of_span_[span];
+            // Nothing could foresee whether a job begins here, so no branch: the next one is written down in any case.
+            const bool begins = from >= static_cast<int>(last >> 32);
+            const std::uint32_t job = begins ? count : static_cast<std::uint32_t>(last);
+            jobs_[count].span = span, jobs_[count].from = from;
+            jobs_[job].to = to;
+            last_of_span_[span] = static_cast<LastJob>(to + kLongestIdleRun + 1) << 32 | job;
+            job_of_layer_[i] = job;
+            count += begins ? 1 : 0;
         }
     }
+    job_count_ = count;
 }
 
 void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
     std::array<std::uint32_t, kBins + 1> first_in_bin{};
-    for (ShadeJob& job : jobs_) {
+    const std::span<ShadeJob> jobs = std::span(jobs_).first(job_count_);
+    for (ShadeJob& job : jobs) {
         const Surface& surface = sweep.spans[job.span].surface;
         job.paint = paint_of(*frame.paints, surface);
-        job.bin = bin_of(*frame.paints, surface, job);
+        job.bin = bin_of(surface, job);
         ++first_in_bin[job.bin + 1U];
     }
     for (std::size_t i = 1; i < first_in_bin.size(); ++i) first_in_bin[i] += first_in_bin[i - 1];
-    order_.resize(jobs_.size());
-    for (std::uint32_t i = 0; i < jobs_.size(); ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
+    order_.resize(jobs.size());
+    for (std::uint32_t i = 0; i < job_count_; ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
     std::uint32_t used = 0;
     for (const std::uint32_t i : order_) {
         jobs_[i].buffer = used;
         used += static_cast<std::uint32_t>(jobs_[i].to - jobs_[i].from);
     }
     buffer_.resize(used + kShadePadding);
-    work_.stretches += jobs_.size();
+    work_.stretches += jobs.size();
     work_.samples += used;
 }
 
@@ -259,8 +263,8 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
     plan(sweep);
     order_jobs(frame, sweep);
     const ShadeRow common = shade_row(frame, row);
-    inputs_.resize(jobs_.size());
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    inputs_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
         const ShadeJob& job = jobs_[order_[i]];
         set_job(frame, row, sweep.spans[job.span], job, inputs_[i]);
         inputs_[i].row = &common;

@@ -51,10 +51,14 @@ class RowShader {
     /// Tells of the row's runs how their samples are laid over one another.
     void lay_out(const PixelRow& row, const RowSweep& sweep);
 
-    std::vector<ShadeJob> jobs_;
+    std::vector<ShadeJob> jobs_;  // the first job_count_ of them
+    std::uint32_t job_count_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<ShadeInput> inputs_;
-    std::vector<std::int32_t> job_of_span_;
+    /// The last job of a span, and the column from which on another is better: one number, which a processor has back
+    /// sooner than two.
+    using LastJob = std::uint64_t;
+    std::vector<LastJob> last_of_span_;
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
     std::vector<CompositeLayer> layers_;       // the same
     std::vector<CompositeRun> whole_, before_whole_, partial_;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/spans/depth_on_line.h"
 
 namespace quadrig {
@@ -140,6 +141,16 @@ std::uint8_t bin_of(const Surface& surface, const ShadeJob& job) {
     return static_cast<std::uint8_t>(1 + 4 * job.paint->bin + 2 * few + quadric);
 }
 
+/// What set_job() asks of a surface's outline, which lies anywhere.
+void fetch_outline(const Surface& surface) {
+    if (surface.kind == Surface::Kind::face) {
+        fetch(surface.outline->solid.face(surface.surface));
+    } else if (surface.kind == Surface::Kind::quadric) {
+        const EyeSolid& solid = surface.outline->solid;
+        fetch(solid.x0), fetch(solid.m), fetch(solid.limb), fetch(solid.in_scene);
+    }
+}
+
 /// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
 void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span, const ShadeJob& job, ShadeInput& in) {
     const SampleRange range = sample_range(row, span);
@@ -265,6 +276,8 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
     const ShadeRow common = shade_row(frame, row);
     inputs_.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
+        constexpr std::size_t kTurnsAhead = 8;
+        fetch_outline(sweep.spans[jobs_[order_[std::min(i + kTurnsAhead, order_.size() - 1)]].span].surface);
         const ShadeJob& job = jobs_[order_[i]];
         set_job(frame, row, sweep.spans[job.span], job, inputs_[i]);
         inputs_[i].row = &common;

@@ -184,9 +184,9 @@ void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
 template <class D, class DI = hn::RebindToSigned<D>>
 HWY_INLINE hn::Vec<DI> packed_pixels(D d, const ShadeBuffer& row, std::size_t i) {
     const DI di;
-    // To the nearest: the low bits of 1.5 * 2^23 + x are those of the integer. The others cancel in the sum.
+    // The upper bits, those of kToNearest, cancel in the sum.
     const auto rounded = [&](const std::vector<float>& plane) HWY_ATTR {
-        return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, 12582912.0F)));
+        return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, kToNearest)));
     };
     constexpr std::uint32_t kWhole = 0x4B400000U, kOpaque = 0xFF000000U;
     constexpr auto kRest = static_cast<std::int32_t>(kOpaque - kWhole - (kWhole << 8) - (kWhole << 16));

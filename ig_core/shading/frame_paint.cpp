@@ -33,6 +33,8 @@ FramePaint make_paint(const Paint& paint, const std::vector<FrameTexture>& textu
         out.limb_threshold = static_cast<float>(paint.translucence->limb_threshold);
         out.softness = static_cast<float>(paint.translucence->softness);
     }
+    const std::uint32_t texture = paint.texture ? 1 + *paint.texture : 0;
+    out.bin = static_cast<std::uint8_t>(2 * (texture % kTextureBins) + (out.translucent ? 1 : 0));
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "ig_core/geometry/fetch.h"
 #include "ig_core/spans/depth_on_line.h"
 
 namespace quadrig {
@@ -39,25 +40,37 @@ SampleRange sample_range(const PixelRow& row, const RowSpan& span) {
 /// Whether neither span hides any of the other: faces of one object, and objects that abut.
 bool side_by_side(const PixelRow& row, const RowSpan& a, const RowSpan& b) {
     constexpr double kRounding = 1e-6;  // columns
-    if (a.surface.outline != nullptr && a.surface.outline == b.surface.outline) return true;
+    double most = 0.0;                  // of any sub-scan line that both cover
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.sub_lines); ++i)
-        if (std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]) > kRounding) return false;
+        most = std::max(most, std::min(a.to[i], b.to[i]) - std::max(a.from[i], b.from[i]));
+    return (most <= kRounding) | ((a.surface.outline != nullptr) & (a.surface.outline == b.surface.outline));
+}
+
+/// Whether layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
+/// pixel: so do most.
+bool side_by_side_before_whole(const PixelRow& row, const LayerRun& run, std::span<const CompositeLayer> layers) {
+    const RowSpan& last = *layers.back().span;
+    if (!(last.surface.opaque & (last.inner_from <= run.from) & (last.inner_to >= run.to))) return false;
+    for (std::size_t i = 1; i + 1 < layers.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (!side_by_side(row, *layers[i].span, *layers[j].span)) return false;
     return true;
 }
 
-/// Whether the layers of a run of edge pixels lie side by side in front of one that is opaque and covers all of every
-/// pixel: so do most.
-bool side_by_side_before_whole(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
-    const auto layer = [&](std::uint32_t i) -> const RowSpan& {
-        return sweep.spans[sweep.layers[run.first_layer + i]];
-    };
-    const std::uint32_t in_front = run.layer_count - 1;
-    const RowSpan& last = layer(in_front);
-    if (!last.surface.opaque || last.inner_from > run.from || last.inner_to < run.to) return false;
-    for (std::uint32_t i = 1; i < in_front; ++i)
-        for (std::uint32_t j = 0; j < i; ++j)
-            if (!side_by_side(row, layer(i), layer(j))) return false;
-    return true;
+/// Puts layers that lie side by side in one group, one behind the other.
+void group(const PixelRow& row, std::span<CompositeLayer> layers) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        CompositeLayer layer = layers[i];
+        // Beside all layers from some group on: it changes nothing to draw it with that group.
+        std::size_t place = i;
+        layer.group = static_cast<std::uint32_t>(i);
+        for (std::size_t j = i; j-- > 0 && side_by_side(row, *layer.span, *layers[j].span);)
+            if (j == 0 || layers[j - 1].group != layers[j].group) layer.group = layers[j].group, place = j;
+        while (place < i && layers[place].group == layer.group) ++place;
+        const std::span<CompositeLayer> moved = layers.subspan(place, i + 1 - place);
+        std::shift_right(moved.begin(), moved.end(), 1);
+        moved[0] = layer;
+    }
 }
 
 void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
@@ -120,15 +133,22 @@ const FramePaint* paint_of(const FramePaints& paints, const Surface& surface) {
 }
 
 /// Jobs are put in order by bins, the sky and lights first. What is asked of jobs of one bin is the same, so that they
-/// are shaded together and a processor foresees the next one's way; textures that share a number cost a little time.
-constexpr std::ptrdiff_t kTextureBins = 16;
-constexpr std::size_t kBins = 1 + 8 * kTextureBins;
-std::uint8_t bin_of(const FramePaints& paints, const Surface& surface, const ShadeJob& job) {
+/// are shaded together and a processor foresees the next one's way.
+constexpr std::size_t kBins = 1 + 4 * kPaintBins;
+std::uint8_t bin_of(const Surface& surface, const ShadeJob& job) {
     if (job.paint == nullptr) return 0;
-    const FramePaint& paint = *job.paint;
-    const std::ptrdiff_t texture = paint.texture == nullptr ? 0 : 1 + (paint.texture - paints.textures.data());
     const bool quadric = surface.kind == Surface::Kind::quadric, few = job.to - job.from <= kFewSamples;
-    return static_cast<std::uint8_t>(1 + 8 * (texture % kTextureBins) + 4 * paint.translucent + 2 * few + quadric);
+    return static_cast<std::uint8_t>(1 + 4 * job.paint->bin + 2 * few + quadric);
+}
+
+/// What set_job() asks of a surface's outline, which lies anywhere.
+void fetch_outline(const Surface& surface) {
+    if (surface.kind == Surface::Kind::face) {
+        fetch(surface.outline->solid.face(surface.surface));
+    } else if (surface.kind == Surface::Kind::quadric) {
+        const EyeSolid& solid = surface.outline->solid;
+        fetch(solid.x0), fetch(solid.m), fetch(solid.limb), fetch(solid.in_scene);
+    }
 }
 
 /// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
@@ -181,55 +201,72 @@ bool all_numbers(const ShadeBuffer& row, int columns) {
 #endif
 
 void RowShader::plan(const RowSweep& sweep) {
-    jobs_.clear();
-    job_of_span_.assign(sweep.spans.size(), -1);
+    last_of_span_.assign(sweep.spans.size(), 0);
     job_of_layer_.resize(sweep.layers.size());
+    if (jobs_.size() <= sweep.layers.size()) jobs_.resize(sweep.layers.size() + 1);
+    std::uint32_t count = 0;
     for (const LayerRun& run : sweep.runs) {
-        for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
+        const int from = run.from, to = run.to;
+        const std::uint32_t last_layer = run.first_layer + run.layer_count;
+        for (std::uint32_t i = run.first_layer; i < last_layer; ++i) {
             const std::uint32_t span = sweep.layers[i];
-            std::int32_t& job = job_of_span_[span];
-            if (job < 0 || jobs_[static_cast<std::size_t>(job)].to + kLongestIdleRun < run.from) {
-                job = static_cast<std::int32_t>(jobs_.size());
-                jobs_.push_back({span, run.from, run.to});
-            }
-            jobs_[static_cast<std::size_t>(job)].to = run.to;
-            job_of_layer_[i] = static_cast<std::uint32_t>(job);
+            const LastJob last = last_of_span_[span];
+            // Nothing could foresee whether a job begins here, so no branch: the next one is written down in any case.
+            const bool begins = from >= static_cast<int>(last >> 32);
+            const std::uint32_t job = begins ? count : static_cast<std::uint32_t>(last);
+            jobs_[count].span = span, jobs_[count].from = from;
+            jobs_[job].to = to;
+            last_of_span_[span] = static_cast<LastJob>(to + kLongestIdleRun + 1) << 32 | job;
+            job_of_layer_[i] = job;
+            count += begins ? 1 : 0;
         }
     }
+    job_count_ = count;
 }
 
 void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
     std::array<std::uint32_t, kBins + 1> first_in_bin{};
-    for (ShadeJob& job : jobs_) {
+    const std::span<ShadeJob> jobs = std::span(jobs_).first(job_count_);
+    for (ShadeJob& job : jobs) {
         const Surface& surface = sweep.spans[job.span].surface;
         job.paint = paint_of(*frame.paints, surface);
-        job.bin = bin_of(*frame.paints, surface, job);
+        job.bin = bin_of(surface, job);
         ++first_in_bin[job.bin + 1U];
     }
     for (std::size_t i = 1; i < first_in_bin.size(); ++i) first_in_bin[i] += first_in_bin[i - 1];
-    order_.resize(jobs_.size());
-    for (std::uint32_t i = 0; i < jobs_.size(); ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
+    order_.resize(jobs.size());
+    for (std::uint32_t i = 0; i < job_count_; ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
     std::uint32_t used = 0;
     for (const std::uint32_t i : order_) {
         jobs_[i].buffer = used;
         used += static_cast<std::uint32_t>(jobs_[i].to - jobs_[i].from);
     }
     buffer_.resize(used + kShadePadding);
-    work_.stretches += jobs_.size();
+    work_.stretches += jobs.size();
     work_.samples += used;
 }
 
-void RowShader::group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run) {
-    partial_.clear();
-    for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i) {
-        const RowSpan& span = sweep.spans[sweep.layers[i]];
-        // Beside all layers from some group on: it changes nothing to draw it with that group.
-        std::size_t place = partial_.size();
-        std::uint32_t group = i;
-        for (std::size_t j = partial_.size(); j-- > 0 && side_by_side(row, span, *partial_[j].span);)
-            if (j == 0 || partial_[j - 1].group != partial_[j].group) group = partial_[j].group;
-        while (place > 0 && group != i && partial_[place - 1].group != group) --place;
-        partial_.insert(partial_.begin() + static_cast<std::ptrdiff_t>(place), {sample(i, run.from), group, &span});
+void RowShader::lay_out(const PixelRow& row, const RowSweep& sweep) {
+    layers_.resize(sweep.layers.size());
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        const ShadeJob& job = jobs_[job_of_layer_[i]];
+        layers_[i] = {job.buffer - static_cast<std::uint32_t>(job.from), 0, &sweep.spans[sweep.layers[i]]};
+    }
+    whole_.clear(), before_whole_.clear(), partial_.clear();
+    for (const LayerRun& run : sweep.runs) {
+        const std::span<CompositeLayer> layers = std::span(layers_).subspan(run.first_layer, run.layer_count);
+        const CompositeRun laid_out{run.from, run.to, layers};
+        if (!run.partial) {
+            whole_.push_back(laid_out);
+            continue;
+        }
+        work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
+        if (side_by_side_before_whole(row, run, layers)) {
+            before_whole_.push_back(laid_out);
+        } else {
+            group(row, layers);
+            partial_.push_back(laid_out);
+        }
     }
 }
 
@@ -237,34 +274,21 @@ void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSw
     plan(sweep);
     order_jobs(frame, sweep);
     const ShadeRow common = shade_row(frame, row);
-    inputs_.resize(jobs_.size());
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    inputs_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        constexpr std::size_t kTurnsAhead = 8;
+        fetch_outline(sweep.spans[jobs_[order_[std::min(i + kTurnsAhead, order_.size() - 1)]].span].surface);
         const ShadeJob& job = jobs_[order_[i]];
         set_job(frame, row, sweep.spans[job.span], job, inputs_[i]);
         inputs_[i].row = &common;
     }
     work_.terms += shade(inputs_, buffer_);
 
+    lay_out(row, sweep);
     row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
-    for (const LayerRun& run : sweep.runs) {
-        if (!run.partial) {
-            samples_.clear();
-            for (std::uint32_t i = 0; i < run.layer_count; ++i)
-                samples_.push_back(sample(run.first_layer + i, run.from));
-            composite_whole(buffer_, samples_, run.to - run.from, row_, static_cast<std::size_t>(run.from));
-            continue;
-        }
-        work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        if (side_by_side_before_whole(row, sweep, run)) {
-            partial_.clear();
-            for (std::uint32_t i = run.first_layer; i < run.first_layer + run.layer_count; ++i)
-                partial_.push_back({sample(i, run.from), 0, &sweep.spans[sweep.layers[i]]});
-            composite_before_whole(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
-        } else {
-            group_layers(row, sweep, run);
-            composite_partial(buffer_, partial_, run.from, run.to, row.sub_lines, row_);
-        }
-    }
+    composite_whole(buffer_, whole_, row_);
+    composite_before_whole(buffer_, before_whole_, row.sub_lines, row_);
+    composite_partial(buffer_, partial_, row.sub_lines, row_);
     assert(all_numbers(row_, row.columns));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ig_core/shading/compositing.h"
 #include "ig_core/shading/frame_paint.h"
 #include "ig_core/shading/shade.h"
 #include "ig_core/spans/sweep.h"
@@ -47,21 +48,20 @@ class RowShader {
     void plan(const RowSweep& sweep);
     /// Puts jobs that are shaded alike one behind the other in the buffer.
     void order_jobs(const FrameShading& frame, const RowSweep& sweep);
-    /// Where a layer of a run stands in the buffer, from a column of the run on.
-    [[nodiscard]] std::uint32_t sample(std::uint32_t layer, int column) const {
-        const ShadeJob& job = jobs_[job_of_layer_[layer]];
-        return job.buffer + static_cast<std::uint32_t>(column - job.from);
-    }
-    /// Puts a run's layers into `partial_`, those that lie side by side in one group.
-    void group_layers(const PixelRow& row, const RowSweep& sweep, const LayerRun& run);
+    /// Tells of the row's runs how their samples are laid over one another.
+    void lay_out(const PixelRow& row, const RowSweep& sweep);
 
-    std::vector<ShadeJob> jobs_;
+    std::vector<ShadeJob> jobs_;  // the first job_count_ of them
+    std::uint32_t job_count_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<ShadeInput> inputs_;
-    std::vector<std::int32_t> job_of_span_;
+    /// The last job of a span, and the column from which on another is better: one number, which a processor has back
+    /// sooner than two.
+    using LastJob = std::uint64_t;
+    std::vector<LastJob> last_of_span_;
     std::vector<std::uint32_t> job_of_layer_;  // parallel to RowSweep::layers
-    std::vector<std::uint32_t> samples_;
-    std::vector<PartialLayer> partial_;
+    std::vector<CompositeLayer> layers_;       // the same
+    std::vector<CompositeRun> whole_, before_whole_, partial_;
     ShadeBuffer buffer_, row_, upper_;
     Work work_;
 };

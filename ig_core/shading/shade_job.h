@@ -35,12 +35,16 @@ struct FrameLight {
     std::array<float, 3> haze_colour{}, horizon{}, zenith{};
 };
 
+/// So many bins of paints there are; textures that share one cost a little time.
+inline constexpr std::uint32_t kTextureBins = 16, kPaintBins = 2 * kTextureBins;
+
 /// How one surface looks.
 struct FramePaint {
     std::array<float, 3> colour{1, 1, 1};
     const FrameTexture* texture = nullptr;
     float texture_weight = 0;
     bool translucent = false;
+    std::uint8_t bin = 0;  ///< surfaces of one bin may be shaded together
     float threshold = 0, limb_threshold = 0, softness = 1;
 };
 

@@ -132,18 +132,21 @@ HWY_INLINE Length<V> length_of(D d, const Vec3<V>& v) {
     return {hn::Mul(squared, inverse), inverse};
 }
 
+/// 1.5 * 2^23: the low bits of its sum with x, |x| < 2^22, are those of the integer nearest to x.
+constexpr float kToNearest = 12582912.0F;
+
 /// 2^-y for y >= 0, relative error <= 3e-6; 0 beyond 126.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V exp2_minus(D d, V y) {
     const hn::RebindToSigned<D> di;
     const V x = hn::Neg(hn::Min(y, hn::Set(d, 126.0F)));
-    const V whole = hn::Round(x);
-    const V r = hn::Sub(x, whole);
+    const V nearest = hn::Add(x, hn::Set(d, kToNearest));
+    const V r = hn::Sub(x, hn::Sub(nearest, hn::Set(d, kToNearest)));
     V p = hn::MulAdd(r, hn::Set(d, 0.00956992228F), hn::Set(d, 0.05591770886F));
     p = hn::MulAdd(r, p, hn::Set(d, 0.24024747254F));
     p = hn::MulAdd(r, p, hn::Set(d, 0.69312183686F));
     p = hn::MulAdd(r, p, hn::Set(d, 0.99999926155F));
-    const auto exponent = hn::ShiftLeft<23>(hn::ConvertTo(di, whole));
+    const auto exponent = hn::ShiftLeft<23>(hn::BitCast(di, nearest));
     return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
 }
 

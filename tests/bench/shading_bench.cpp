@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ig_core/shading/compositing.h"
 #include "ig_core/shading/frame_paint.h"
 #include "ig_core/shading/shade.h"
 #include "tests/ig_core/randomness.h"
@@ -92,10 +93,12 @@ void whole_layers(benchmark::State& state, std::int64_t target) {
     ShadeBuffer buffer, row;
     buffer.resize(4 * kColumns + kShadePadding), row.resize(kColumns + kShadePadding);
     std::fill(buffer.opacity.begin(), buffer.opacity.end(), 0.5F);
-    std::vector<std::uint32_t> samples;
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(state.range(0)); ++i) samples.push_back(i * kColumns);
+    std::vector<CompositeLayer> layers;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(state.range(0)); ++i)
+        layers.push_back({i * kColumns, i, nullptr});
+    const std::vector<CompositeRun> runs{{0, kColumns, layers}};
     for (auto _ : state) {
-        composite_whole(buffer, samples, kColumns, row, 0);
+        composite_whole(buffer, runs, row);
         benchmark::DoNotOptimize(row.red.data());
     }
     per_item(state, kColumns * state.range(0));
@@ -109,9 +112,10 @@ void partial_pixels(benchmark::State& state, std::int64_t target) {
     RowSpan left, right;
     left.from.fill(0), left.to.fill(0.4), right.from.fill(0), right.to.fill(5);
     right.inner_to = 5;
-    const std::vector<PartialLayer> layers{{0, 0, &left}, {1, 1, &right}};
+    const std::vector<CompositeLayer> layers{{0, 0, &left}, {1, 1, &right}};
+    const std::vector<CompositeRun> runs{{0, 1, layers}};
     for (auto _ : state) {
-        composite_partial(buffer, layers, 0, 1, 2, row);
+        composite_partial(buffer, runs, 2, row);
         benchmark::DoNotOptimize(row.red.data());
     }
     per_item(state, 1);

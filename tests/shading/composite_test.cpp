@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "ig_core/shading/shade.h"
+#include "ig_core/shading/compositing.h"
 #include "tests/ig_core/randomness.h"
 #include "tests/ig_core/simd_targets.h"
 
@@ -32,6 +32,15 @@ RowSpan span_of(std::vector<std::pair<double, double>> lines) {
     return span;
 }
 
+/// A layer whose sample of column `first` is the buffer's `sample`.
+CompositeLayer layer_of(std::size_t sample, int first, std::uint32_t group, const RowSpan* span) {
+    return {static_cast<std::uint32_t>(sample) - static_cast<std::uint32_t>(first), group, span};
+}
+
+std::vector<CompositeRun> run_of(int from, int to, const std::vector<CompositeLayer>& layers) {
+    return {{from, to, layers}};
+}
+
 template <class Test>
 void on_every_target(Test&& test) {
     for (const std::int64_t target : simd_targets()) {
@@ -54,8 +63,9 @@ TEST_CASE("layers of whole pixels: each covers by its opacity what the ones in f
                                               {1, 1, 1, 1}});
         ShadeBuffer row;
         row.resize(8 + kShadePadding);
-        const std::vector<std::uint32_t> samples{0, 2, 4};
-        composite_whole(buffer, samples, 2, row, 3);
+        const std::vector<CompositeLayer> layers{layer_of(0, 3, 0, nullptr), layer_of(2, 3, 0, nullptr),
+                                                 layer_of(4, 3, 0, nullptr)};
+        composite_whole(buffer, run_of(3, 5, layers), row);
         CHECK(row.red[3] == Approx(0.25));
         CHECK(row.green[3] == Approx(0.375));
         CHECK(row.blue[3] == Approx(0.375));
@@ -72,8 +82,8 @@ TEST_CASE("a pixel covered in part shows what lies behind for the rest") {
         row.resize(8 + kShadePadding);
         const RowSpan sky = span_of({{0, 8}, {0, 8}, {0, 8}, {0, 8}});
         const auto red_share = [&](const RowSpan& span, int lines) {
-            const std::vector<PartialLayer> layers{{0, 0, &span}, {1, 99, &sky}};
-            composite_partial(buffer, layers, 5, 6, lines, row);
+            const std::vector<CompositeLayer> layers{layer_of(0, 5, 0, &span), layer_of(1, 5, 99, &sky)};
+            composite_partial(buffer, run_of(5, 6, layers), lines, row);
             CHECK(row.red[5] + row.blue[5] == Approx(1).epsilon(1e-6));
             return row.red[5];
         };
@@ -94,8 +104,9 @@ TEST_CASE("surfaces of one object that meet within a pixel leave nothing of the 
         row.resize(8 + kShadePadding);
         const RowSpan left = span_of({{0, 2.375}, {0, 2.5}}), right = span_of({{2.375, 8}, {2.5, 8}}),
                       sky = span_of({{0, 8}, {0, 8}});
-        const std::vector<PartialLayer> layers{{0, 7, &left}, {1, 7, &right}, {2, 99, &sky}};
-        composite_partial(buffer, layers, 2, 3, 2, row);
+        const std::vector<CompositeLayer> layers{layer_of(0, 2, 7, &left), layer_of(1, 2, 7, &right),
+                                                 layer_of(2, 2, 99, &sky)};
+        composite_partial(buffer, run_of(2, 3, layers), 2, row);
         CHECK(row.red[2] == Approx(0.4375));
         CHECK(row.green[2] == Approx(0.5625));
         CHECK(row.blue[2] == Approx(0).margin(1e-6));
@@ -108,8 +119,9 @@ TEST_CASE("a translucent edge lets its own share through and no more") {
         ShadeBuffer row;
         row.resize(8 + kShadePadding);
         const RowSpan front = span_of({{3.5, 8}, {3.5, 8}}), all = span_of({{0, 8}, {0, 8}});
-        const std::vector<PartialLayer> layers{{0, 1, &front}, {1, 2, &all}, {2, 99, &all}};
-        composite_partial(buffer, layers, 3, 4, 2, row);
+        const std::vector<CompositeLayer> layers{layer_of(0, 3, 1, &front), layer_of(1, 3, 2, &all),
+                                                 layer_of(2, 3, 99, &all)};
+        composite_partial(buffer, run_of(3, 4, layers), 2, row);
         CHECK(row.red[3] == Approx(0.25));
         CHECK(row.green[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
         CHECK(row.blue[3] == Approx(0.5 * 0.5 + 0.5 * 0.25));
@@ -119,8 +131,7 @@ TEST_CASE("a translucent edge lets its own share through and no more") {
 namespace {
 
 /// Red that a column shows of layers whose samples all stand at that column: cell by cell, in double.
-double red_by_cells(const ShadeBuffer& buffer, const std::vector<PartialLayer>& layers, int column, int first,
-                    int lines) {
+double red_by_cells(const ShadeBuffer& buffer, const std::vector<CompositeLayer>& layers, int column, int lines) {
     double red = 0;
     for (int cell = 0; cell < lines * kCellsPerLine; ++cell) {
         const auto line = static_cast<std::size_t>(cell / kCellsPerLine);
@@ -130,7 +141,7 @@ double red_by_cells(const ShadeBuffer& buffer, const std::vector<PartialLayer>& 
             if (i > 0 && layers[i].group != layers[i - 1].group) at_group = through;
             const double from = std::max(layers[i].span->from[line], left),
                          to = std::min(layers[i].span->to[line], right);
-            const std::size_t sample = layers[i].sample + static_cast<std::size_t>(column - first);
+            const std::size_t sample = layers[i].sample(static_cast<std::size_t>(column));
             const double weight = std::max(0.0, to - from) * kCellsPerLine * at_group * double{buffer.opacity[sample]};
             through = std::max(0.0, through - weight);
             red += weight * double{buffer.red[sample]};
@@ -167,18 +178,17 @@ TEST_CASE("every pixel of a run is the sum of its cells, for any number of sub-s
                 spans.push_back(span_of(ends));
                 groups.push_back(beside_last ? groups.back() : static_cast<std::uint32_t>(i));
             }
-            std::vector<PartialLayer> layers;
+            std::vector<CompositeLayer> layers;
             for (std::size_t i = 0; i < spans.size(); ++i)
-                layers.push_back(
-                    {static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(columns), groups[i], &spans[i]});
+                layers.push_back(layer_of(i * static_cast<std::size_t>(columns), first, groups[i], &spans[i]));
             const ShadeBuffer buffer = buffer_of(samples);
             ShadeBuffer row;
             row.resize(8 + kShadePadding);
-            composite_partial(buffer, layers, first, first + columns, lines, row);
+            composite_partial(buffer, run_of(first, first + columns, layers), lines, row);
             constexpr double kDark = 1.0 / 4096;  // what is left when the layers behind are given up
             for (int column = first; column < first + columns; ++column)
                 CHECK(row.red[static_cast<std::size_t>(column)] ==
-                      Approx(red_by_cells(buffer, layers, column, first, lines)).margin(kDark));
+                      Approx(red_by_cells(buffer, layers, column, lines)).margin(kDark));
         }
     });
 }
@@ -208,17 +218,38 @@ TEST_CASE("layers side by side before an opaque whole one are the sum of their c
                 }
                 spans.push_back(span_of(ends));
             }
-            std::vector<PartialLayer> layers;
+            std::vector<CompositeLayer> layers;
             for (std::size_t i = 0; i < spans.size(); ++i)
-                layers.push_back({static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(columns),
-                                  i + 1 == spans.size() ? 1U : 0U, &spans[i]});
+                layers.push_back(
+                    layer_of(i * static_cast<std::size_t>(columns), first, i + 1 == spans.size() ? 1U : 0U, &spans[i]));
             const ShadeBuffer buffer = buffer_of(samples);
             ShadeBuffer row;
             row.resize(8 + kShadePadding);
-            composite_before_whole(buffer, layers, first, first + columns, lines, row);
+            composite_before_whole(buffer, run_of(first, first + columns, layers), lines, row);
             for (int column = first; column < first + columns; ++column)
                 CHECK(row.red[static_cast<std::size_t>(column)] ==
-                      Approx(red_by_cells(buffer, layers, column, first, lines)).margin(1e-6));
+                      Approx(red_by_cells(buffer, layers, column, lines)).margin(1e-6));
+        }
+    });
+}
+
+TEST_CASE("a run of edge pixels leaves the columns beside it as they are") {
+    on_every_target([] {
+        const ShadeBuffer buffer = buffer_of({{1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 1, 1}});
+        const RowSpan front = span_of({{2.5, 8}, {2.5, 8}}), sky = span_of({{0, 8}, {0, 8}});
+        for (const int columns : {1, 2}) {
+            const std::vector<CompositeLayer> layers{layer_of(0, 2, 0, &front), layer_of(2, 2, 1, &sky)};
+            const std::vector<CompositeRun> runs = run_of(2, 2 + columns, layers);
+            for (const bool before_whole : {false, true}) {
+                ShadeBuffer row;
+                row.resize(8 + kShadePadding);
+                std::fill(row.green.begin(), row.green.end(), 0.75F);
+                before_whole ? composite_before_whole(buffer, runs, 2, row) : composite_partial(buffer, runs, 2, row);
+                for (std::size_t column = 0; column < 8; ++column) {
+                    const bool drawn = column >= 2 && column < 2 + static_cast<std::size_t>(columns);
+                    CHECK(row.green[column] == (drawn ? 0.0F : 0.75F));
+                }
+            }
         }
     });
 }

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "ig_core/shading/shade.h"
+#include "ig_core/shading/compositing.h"
 #include "tests/ig_core/rendering.h"
 #include "tests/ig_core/simd_targets.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <sstream>
 
 namespace quadrig::appliance {

@@ -1,12 +1,12 @@
 #include "appliance/option_values.h"
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "display/frame_writer.h"
+#include "host_link/read_number.h"
 
 namespace quadrig::appliance {
 namespace {
@@ -15,16 +15,8 @@ namespace {
     throw CLI::ValidationError("'" + text + "'", "expected " + expected);
 }
 
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 double number_in(const std::string& text, const std::string& expected, bool (*holds)(double)) {
-    const auto number = parse<double>(text);
+    const auto number = host::read_number<double>(text);
     if (!number || !std::isfinite(*number) || !holds(*number)) refuse(text, expected);
     return *number;
 }
@@ -42,7 +34,7 @@ glm::dvec3 read_triple(const std::string& text) {
     glm::length_t axis = 0;
     for (const std::string_view part :
          {all.substr(0, first), all.substr(first + 1, last - first - 1), all.substr(last + 1)}) {
-        const auto value = parse<double>(part);
+        const auto value = host::read_number<double>(part);
         if (!value || !(std::abs(*value) <= 1e9)) fail();
         values[axis++] = *value;
     }
@@ -52,7 +44,8 @@ glm::dvec3 read_triple(const std::string& text) {
 config::ImageSize read_size(const std::string& text) {
     const std::string_view all(text);
     const std::size_t cross = std::min(all.find('x'), all.size() - 1);
-    const auto width = parse<int>(all.substr(0, cross)), height = parse<int>(all.substr(cross + 1));
+    const auto width = host::read_number<int>(all.substr(0, cross)),
+               height = host::read_number<int>(all.substr(cross + 1));
     const auto fits = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= config::kLargestImage; };
     if (!fits(width) || !fits(height))
         refuse(text, "WIDTHxHEIGHT, such as 1280x720, each in 1.." + std::to_string(config::kLargestImage));
@@ -75,7 +68,7 @@ scheduler::Time read_duration(const std::string& text) {
 }
 
 std::uint64_t read_count(const std::string& text) {
-    const auto count = parse<std::uint64_t>(text);
+    const auto count = host::read_number<std::uint64_t>(text);
     if (!count || *count == 0) refuse(text, "a whole number of at least 1");
     return *count;
 }
@@ -107,7 +100,7 @@ host::LinkUrl read_live_link(const std::string& text) {
 
 config::ApplianceSettings::EntityModel read_entity(const std::string& text) {
     const std::size_t equals = std::min(text.find('='), text.size());
-    const auto type = parse<int>(std::string_view(text).substr(0, equals));
+    const auto type = host::read_number<int>(std::string_view(text).substr(0, equals));
     if (!type || *type < 0 || *type > 65535 || equals + 1 >= text.size())
         refuse(text, "TYPE=MODEL, such as 12=x-29, the type in 0..65535");
     return {text.substr(equals + 1), *type};

@@ -1,6 +1,7 @@
 #include "config/ground_section.h"
 
 #include <iterator>
+#include <string>
 
 #include "config/object_section.h"
 #include "ig_core/clusters/runway.h"

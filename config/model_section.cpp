@@ -1,7 +1,6 @@
 #include "config/model_section.h"
 
 #include <map>
-#include <utility>
 
 #include "config/config_directory.h"
 #include "config/object_section.h"

@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <utility>
 

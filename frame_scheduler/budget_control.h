@@ -6,7 +6,6 @@
 /// been in time on the next step, so that the picture does not flicker between two steps.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "frame_scheduler/frame_clock.h"

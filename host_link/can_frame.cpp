@@ -1,10 +1,10 @@
 #include "host_link/can_frame.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 
+#include "host_link/read_number.h"
 #include "host_link/wire.h"
 
 namespace quadrig::host {
@@ -15,14 +15,6 @@ constexpr std::uint32_t kExtended = 1U << 31, kRemote = 1U << 30, kError = 1U <<
 constexpr std::uint32_t kStandardMask = 0x7FF, kExtendedMask = 0x1FFFFFFF;
 constexpr std::size_t kHeader = 8;
 constexpr std::size_t kStandardDigits = 3, kExtendedDigits = 8;
-
-template <class Number>
-std::optional<Number> number(std::string_view text, int base) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
 
 CanFrame from_flags(std::uint32_t id_and_flags) {
     CanFrame frame;
@@ -47,8 +39,8 @@ std::optional<Time> candump_time(std::string_view stamp) {
     const auto point = stamp.find('.');
     if (point == std::string_view::npos) return std::nullopt;
     const std::string_view digits = stamp.substr(point + 1);
-    const auto seconds = number<std::uint32_t>(stamp.substr(0, point), 10);
-    const auto fraction = number<std::uint32_t>(digits, 10);
+    const auto seconds = read_number<std::uint32_t>(stamp.substr(0, point));
+    const auto fraction = read_number<std::uint32_t>(digits);
     if (!seconds || !fraction) return std::nullopt;
     // Microseconds, or nanoseconds from can-utils of 2024 on.
     if (digits.size() == 6) return std::chrono::seconds(*seconds) + std::chrono::microseconds(*fraction);
@@ -59,7 +51,7 @@ std::optional<Time> candump_time(std::string_view stamp) {
 std::optional<CanFrame> candump_frame(std::string_view text) {
     const auto hash = text.find('#');
     if (hash != kStandardDigits && hash != kExtendedDigits) return std::nullopt;
-    const auto id = number<std::uint32_t>(text.substr(0, hash), 16);
+    const auto id = read_number<std::uint32_t>(text.substr(0, hash), 16);
     if (!id) return std::nullopt;
     CanFrame frame;
     frame.extended = hash == kExtendedDigits;
@@ -72,7 +64,7 @@ std::optional<CanFrame> candump_frame(std::string_view text) {
     }
     while (!data.empty()) {
         if (data.front() == '.') data.remove_prefix(1);
-        const auto byte = number<std::uint8_t>(data.substr(0, 2), 16);
+        const auto byte = read_number<std::uint8_t>(data.substr(0, 2), 16);
         if (!byte || data.size() < 2 || frame.size == kCanDataSize) return std::nullopt;
         frame.data[frame.size++] = std::byte{*byte};
         data.remove_prefix(2);

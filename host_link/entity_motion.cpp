@@ -32,12 +32,6 @@ Turned turned(const glm::dvec3& turn, double seconds) {
             seconds * one + versine / rate * cross + (seconds - sine / rate) * square};
 }
 
-/// A pose that is told in a parent's axes.
-ScenePose on(const ScenePose& parent, const ScenePose& child) {
-    return {{parent.position.metres + glm::transpose(parent.eye_from_scene) * child.position.metres},
-            child.eye_from_scene * parent.eye_from_scene};
-}
-
 }  // namespace
 
 ScenePose predicted(const Entity& entity, Time at) {
@@ -88,10 +82,10 @@ std::optional<ScenePose> pose_of(const EntityList& entities, std::uint16_t id, T
         const Entity* entity = entities.find(id);
         const bool is_ownship = ownship && ownship->first == id;
         if (is_ownship && (entity == nullptr || !entity->parent))
-            return pose ? on(ownship->second, *pose) : ownship->second;
+            return pose ? pose_on(ownship->second, *pose) : ownship->second;
         if (entity == nullptr || !entity->placed) return std::nullopt;
         const ScenePose own = moved_on(*entity, at);
-        pose = pose ? on(own, *pose) : own;
+        pose = pose ? pose_on(own, *pose) : own;
         if (!entity->parent) return pose;
         id = *entity->parent;
     }

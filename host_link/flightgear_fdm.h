@@ -27,8 +27,6 @@ struct NetFdm {
 
 inline constexpr std::size_t kSize24 = 408;
 inline constexpr std::size_t kSize25 = 552;
-/// What JSBSim sends as cur_time where its output is not set up to send the time.
-inline constexpr std::uint32_t kNoTime = 1234567890;
 
 /// Reads a datagram, or says what is the likely reason that it cannot be read.
 std::variant<NetFdm, Reject> decode(std::span<const std::byte> datagram);

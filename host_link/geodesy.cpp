@@ -1,7 +1,5 @@
 #include "host_link/geodesy.h"
 
-#include <glm/matrix.hpp>
-
 namespace quadrig::host {
 
 SceneFrame::SceneFrame(const GeodeticPosition& origin)
@@ -24,12 +22,6 @@ GeodeticPosition SceneFrame::geodetic(const ScenePoint& point) const {
     const glm::dvec3& p = point.metres;
     local_.Reverse(p.x, p.y, p.z, position.latitude.value, position.longitude.value, position.altitude);
     return position;
-}
-
-ScenePose eye_pose(const ScenePose& body, const ViewMount& mount) {
-    const glm::dmat3 eye_from_body = eye_from_scene_rotation(mount.attitude);
-    return {{body.position.metres + glm::transpose(body.eye_from_scene) * mount.offset},
-            eye_from_body * body.eye_from_scene};
 }
 
 }  // namespace quadrig::host

@@ -1,11 +1,9 @@
-/// From WGS-84 positions and local attitudes to poses in scene space, and from a body's pose to the eye that rides on
-/// it.
+/// From WGS-84 positions and local attitudes to poses in scene space.
 #pragma once
 
 #include <GeographicLib/LocalCartesian.hpp>
 #include <vector>
 
-#include "host_link/host_state.h"
 #include "ig_core/geometry/space.h"
 
 namespace quadrig::host {
@@ -27,8 +25,5 @@ class SceneFrame {
     GeographicLib::LocalCartesian local_;
     std::vector<double> scene_from_level_;  ///< nine numbers, row-major: as GeographicLib wants it
 };
-
-/// The eye of a mount on a body: the offset is in the body's axes, the attitude turns from them.
-ScenePose eye_pose(const ScenePose& body, const ViewMount& mount);
 
 }  // namespace quadrig::host

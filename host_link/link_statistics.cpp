@@ -1,7 +1,6 @@
 #include "host_link/link_statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "host_link/canaerospace.h"

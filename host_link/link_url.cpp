@@ -3,10 +3,11 @@
 #include <arpa/inet.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <tuple>
 #include <utility>
+
+#include "host_link/read_number.h"
 
 namespace quadrig::host {
 
@@ -23,14 +24,6 @@ std::pair<std::string_view, std::string_view> split(std::string_view text, char 
     const auto at = text.find(separator);
     if (at == std::string_view::npos) return {text, {}};
     return {text.substr(0, at), text.substr(at + 1)};
-}
-
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
 }
 
 Protocol protocol_of(const LinkUrl& url, std::string_view scheme) {
@@ -73,7 +66,7 @@ std::pair<std::string, std::uint16_t> endpoint_of(const LinkUrl& url, std::strin
     const auto bracket = text.rfind(']');
     if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
         fail(url, "no port; give ADDRESS:PORT, for example 127.0.0.1:8004");
-    const auto port = number<std::uint16_t>(text.substr(colon + 1));
+    const auto port = read_number<std::uint16_t>(text.substr(colon + 1));
     std::string address = address_of(url, text.substr(0, colon));
     if (!port) fail(url, "bad port '" + std::string(text.substr(colon + 1)) + "'");
     return {std::move(address), *port};
@@ -94,7 +87,7 @@ cigi::Version version_of(const LinkUrl& url, std::string_view value) {
 
 template <class Number>
 Number whole_in(const LinkUrl& url, std::string_view key, std::string_view value, unsigned least, unsigned most) {
-    const auto whole = number<unsigned>(value);
+    const auto whole = read_number<unsigned>(value);
     if (!whole || *whole < least || *whole > most)
         fail(url, std::string(key) + " is a number from " + std::to_string(least) + " to " + std::to_string(most) +
                       ", not '" + std::string(value) + "'");
@@ -223,7 +216,7 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
         return;
     }
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
-    url.altitude_offset = number<double>(value);
+    url.altitude_offset = read_number<double>(value);
     if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
         fail(url, "altitude_offset is a number of metres");
 }

@@ -2,9 +2,7 @@
 
 #include <netinet/in.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <utility>
 

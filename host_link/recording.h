@@ -12,7 +12,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "host_link/can_frame.h"
 #include "host_link/link_url.h"

@@ -39,7 +39,7 @@ std::optional<ScenePoint> Session::point_of(const std::array<double, 3>& at, boo
         if (!cigi::below(kFarthestOffset, at)) return std::nullopt;
         const auto body = body_of(id, arrival);
         if (!body) return std::nullopt;
-        return ScenePoint{body->position.metres + glm::transpose(body->eye_from_scene) * from_wire(at)};
+        return place_on(*body, from_wire(at));
     }
     const GeodeticPosition position{{at[0]}, {at[1]}, at[2] + options_.altitude_offset};
     if (!in_range(position, {})) return std::nullopt;

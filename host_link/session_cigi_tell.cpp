@@ -1,11 +1,9 @@
 // What a CIGI host is told without having asked a question: collisions, sensors, warnings.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "host_link/cigi_axes.h"
 #include "host_link/cigi_query.h"
@@ -70,7 +68,7 @@ void Session::tell_collisions(const Asking& asking) {
         const auto body = body_of(segment.entity, asking.arrival);
         if (entity == nullptr || !entity->detects_collisions || !body) continue;
         const auto point = [&](const std::array<float, 3>& p) {
-            return body->position.metres + glm::transpose(body->eye_from_scene) * cigi::turn_axes(p[0], p[1], p[2]);
+            return place_on(*body, cigi::turn_axes(p[0], p[1], p[2])).metres;
         };
         const glm::dvec3 from = point(segment.from), way = point(segment.to) - from;
         const double length = glm::length(way);

@@ -1,6 +1,5 @@
 #include "host_link/source_clock.h"
 
-#include <array>
 #include <cmath>
 
 namespace quadrig::host {

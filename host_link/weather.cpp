@@ -1,6 +1,5 @@
 #include "host_link/weather.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

@@ -1,10 +1,12 @@
 #include "ig_core/scene_query.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <utility>
+#include <span>
+
+#include "ig_core/geometry/quadric_line.h"
 
 namespace quadrig {
 namespace {
@@ -20,6 +22,7 @@ struct Stretch {
 
     [[nodiscard]] bool is_empty() const { return !(enter < leave); }
 };
+constexpr Stretch kNothing{kInfinity, -kInfinity};
 
 /// A line in a solid's own coordinates: q + t d about the anchor, t counted from the point nearest to the anchor, so
 /// that nothing far away cancels.
@@ -30,7 +33,7 @@ struct Line {
 void cut(Stretch& stretch, const SolidPlane& plane, const Line& line) {
     const double here = glm::dot(plane.normal, line.q) + plane.offset, along = glm::dot(plane.normal, line.d);
     if (along == 0.0) {
-        if (!(here > 0.0)) stretch.leave = -kInfinity;
+        if (!(here > 0.0)) stretch = kNothing;
         return;
     }
     const double at = -here / along;
@@ -42,30 +45,21 @@ void cut(Stretch& stretch, const SolidPlane& plane, const Line& line) {
     }
 }
 
-Stretch from_quadric(Stretch stretch, double at) {
-    if (at > stretch.enter) stretch.enter = at, stretch.plane = nullptr;
-    return stretch;
-}
-Stretch to_quadric(Stretch stretch, double at) {
-    stretch.leave = std::min(stretch.leave, at);
-    return stretch;
-}
-
-/// The part of `stretch` inside the quadric: A t^2 + 2 B t + C <= 0 (Eq 4). A cone, hill or the like leaves two parts,
-/// of which a convex solid has one.
-Stretch inside_quadric(const Stretch& stretch, const Solid& solid, const Line& line) {
+/// What of a stretch is inside the quadric (Eq 4). A cone, hill or the like leaves two parts, of which a convex solid
+/// has one.
+Stretch cut_by_quadric(const Stretch& stretch, const Solid& solid, const Line& line) {
     const glm::dvec3 gradient = solid.m * line.q + solid.w;
     const double a = value(solid.m, line.d), b = glm::dot(gradient, line.d);
     const double c = glm::dot(gradient + solid.w, line.q) + solid.c;
-    const double discriminant = b * b - a * c;
-    if (!(discriminant > 0.0)) return a > 0.0 || c > 0.0 ? Stretch{kInfinity, -kInfinity, nullptr} : stretch;
-    // Both roots without cancellation; one is infinite where A is 0.
-    const double sum = -(b + std::copysign(std::sqrt(discriminant), b));
-    const auto [first, second] = std::minmax({sum / a, c / sum});
-    if (a > 0.0) return to_quadric(from_quadric(stretch, first), second);
-    if (a == 0.0) return b > 0.0 ? to_quadric(stretch, c / sum) : from_quadric(stretch, c / sum);
-    const Stretch before = to_quadric(stretch, first);
-    return before.is_empty() ? from_quadric(stretch, second) : before;
+    std::array<Interval, 2> pieces;
+    const int count = inside_quadric(a, b, c, b * b - a * c, 0.0, pieces);
+    for (const Interval& piece : std::span(pieces).first(static_cast<std::size_t>(count))) {
+        Stretch part = stretch;
+        if (piece.from > part.enter) part.enter = piece.from, part.plane = nullptr;
+        part.leave = std::min(part.leave, piece.to);
+        if (!part.is_empty()) return part;
+    }
+    return kNothing;
 }
 
 glm::dvec3 normal_at(const Solid& solid, const SolidPlane* plane, const glm::dvec3& q) {
@@ -95,7 +89,7 @@ std::optional<SurfaceHit> SceneQuery::nearest(const ScenePoint& from, const glm:
         for (const SolidPlane& plane : solid.planes) cut(stretch, plane, line);
         for (const SolidPlane& side : solid.flat_sides) cut(stretch, side, line);
         if (stretch.is_empty()) continue;
-        if (solid.flat_sides.empty()) stretch = inside_quadric(stretch, solid, line);
+        if (solid.flat_sides.empty()) stretch = cut_by_quadric(stretch, solid, line);
         const double distance = to_nearest + stretch.enter;
         const bool nearer = best ? distance < best->distance : distance <= most;
         if (stretch.is_empty() || !(distance > least) || !nearer) continue;

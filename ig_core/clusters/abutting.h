@@ -6,7 +6,6 @@
 /// is for ellipsoids of equal proportions and attitude and for hills of equal slope.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "ig_core/geometry/symmetric.h"

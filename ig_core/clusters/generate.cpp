@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "ig_core/clusters/abutting.h"
 #include "ig_core/clusters/dice.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <optional>
 #include <vector>
 
 #include "ig_core/scene/scene.h"

@@ -55,13 +55,8 @@ SineCosine sine_cosine(Degrees angle) {
 }
 
 glm::dmat3 body_from_scene(const Attitude& attitude) {
-    const auto [sh, ch] = sine_cosine(attitude.heading);
-    const auto [sp, cp] = sine_cosine(attitude.pitch);
-    const auto [sr, cr] = sine_cosine(attitude.roll);
-    const glm::dvec3 forward(sh * cp, ch * cp, sp);
-    const glm::dvec3 level_right(ch, -sh, 0.0), level_up(-sh * sp, -ch * sp, cp);
-    const glm::dvec3 right = cr * level_right - sr * level_up, up = sr * level_right + cr * level_up;
-    return {right.x, forward.x, up.x, right.y, forward.y, up.y, right.z, forward.z, up.z};
+    return eye_from_scene_rotation(sine_cosine(attitude.heading), sine_cosine(attitude.pitch),
+                                   sine_cosine(attitude.roll));
 }
 
 }  // namespace quadrig::clusters

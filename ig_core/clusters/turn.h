@@ -7,11 +7,6 @@
 
 namespace quadrig::clusters {
 
-struct SineCosine {
-    double sine = 0.0;
-    double cosine = 1.0;
-};
-
 /// By additions and multiplications only. Error below 4e-16 for any finite angle of up to 1e6 degrees; exact at
 /// multiples of 90.
 SineCosine sine_cosine(Degrees angle);

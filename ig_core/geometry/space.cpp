@@ -1,14 +1,27 @@
 #include "ig_core/geometry/space.h"
 
-#include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace quadrig {
 
+ScenePoint place_on(const ScenePose& body, const glm::dvec3& place) {
+    return {body.position.metres + glm::transpose(body.eye_from_scene) * place};
+}
+
+ScenePose pose_on(const ScenePose& body, const ScenePose& own) {
+    return {place_on(body, own.position.metres), own.eye_from_scene * body.eye_from_scene};
+}
+
 glm::dmat3 eye_from_scene_rotation(const Attitude& attitude) {
-    const double ch = std::cos(attitude.heading.radians()), sh = std::sin(attitude.heading.radians());
-    const double cp = std::cos(attitude.pitch.radians()), sp = std::sin(attitude.pitch.radians());
-    const double cr = std::cos(attitude.roll.radians()), sr = std::sin(attitude.roll.radians());
+    const auto of = [](Degrees angle) { return SineCosine{std::sin(angle.radians()), std::cos(angle.radians())}; };
+    return eye_from_scene_rotation(of(attitude.heading), of(attitude.pitch), of(attitude.roll));
+}
+
+glm::dmat3 eye_from_scene_rotation(const SineCosine& heading, const SineCosine& pitch, const SineCosine& roll) {
+    const auto [sh, ch] = heading;
+    const auto [sp, cp] = pitch;
+    const auto [sr, cr] = roll;
     const glm::dvec3 forward(sh * cp, ch * cp, sp);
     const glm::dvec3 level_right(ch, -sh, 0.0);
     const glm::dvec3 level_up(-sh * sp, -ch * sp, cp);

@@ -12,17 +12,11 @@
 
 namespace quadrig {
 
-struct SceneSpace {};
-struct EyeSpace {};
-
-/// A position in metres in the space it names.
-template <class Space>
-struct Point {
+/// A position in scene space.
+struct ScenePoint {
     glm::dvec3 metres{0.0};
-    friend bool operator==(const Point&, const Point&) = default;
+    friend bool operator==(const ScenePoint&, const ScenePoint&) = default;
 };
-using ScenePoint = Point<SceneSpace>;
-using EyePoint = Point<EyeSpace>;
 
 /// An angle in degrees: what files, wires and people use.
 struct Degrees {
@@ -32,7 +26,7 @@ struct Degrees {
     friend constexpr bool operator==(Degrees, Degrees) = default;
 };
 
-/// Heading clockwise from north, pitch nose up, roll right wing down; applied in this order (MODEL.md's convention).
+/// Heading clockwise from north, pitch nose up, roll right wing down; applied in this order.
 struct Attitude {
     Degrees heading;
     Degrees pitch;
@@ -53,9 +47,20 @@ struct ScenePose {
     glm::dmat3 eye_from_scene{1.0};
 };
 
+/// Where a place in a body's own axes (m from its origin) is in the scene.
+ScenePoint place_on(const ScenePose& body, const glm::dvec3& place);
+/// The pose in the scene of what has `own` in a body's own axes, as if those were the scene's.
+ScenePose pose_on(const ScenePose& body, const ScenePose& own);
+
 /// Rotation that takes scene directions into eye space for a look direction of the given attitude.
 /// Rows of the result are the eye's right, forward and up axes in scene space. Orthonormal to 2 ulp.
 glm::dmat3 eye_from_scene_rotation(const Attitude& attitude);
+
+struct SineCosine {
+    double sine = 0.0, cosine = 1.0;
+};
+/// The same by its angles' sines and cosines: the same bits everywhere if those are.
+glm::dmat3 eye_from_scene_rotation(const SineCosine& heading, const SineCosine& pitch, const SineCosine& roll);
 
 /// The attitude of a rotation: heading in 0..360, pitch in -90..90, roll in -180..180.
 /// At a pitch of +-90 degrees, where heading and roll turn about one axis, roll is 0.

@@ -1,5 +1,5 @@
-/// The boundaries of a z-band on some scan lines at a time, one line a vector lane: the arithmetic of cuts_by_band, bit
-/// for bit.
+/// Where an outline's boundaries cross scan lines: one of them on one line, or those of a z-band on some lines at a
+/// time, one line a vector lane.
 #pragma once
 
 #include <array>
@@ -9,6 +9,18 @@
 #include "ig_core/outline/outline.h"
 
 namespace quadrig {
+
+/// Where a boundary crosses the row zeta: xi, infinite at the ends of a row, infinite or NaN where there is none. A
+/// discriminant below zero counts as zero: rows just outside a curve touch it.
+double intercept(const Outline& outline, const Boundary& boundary, double zeta);
+
+/// Where a curve crosses the row zeta (`rising`, where its form goes from negative to positive with xi), if that is on
+/// the solid as far as can be told (of a solid without end, everywhere); NaN or infinite otherwise. `plane` is the
+/// curve's, null for the limb.
+struct RowRoots {
+    double rising, falling;
+};
+RowRoots roots_on_solid(const Outline& outline, std::size_t curve, const EyePlane* plane, double zeta);
 
 /// Image-plane x to columns: (x - left) * columns_per_x.
 struct ColumnScale {

@@ -7,57 +7,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "ig_core/outline/image_forms-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, 8>;
-using Mask = hn::Mask<D>;
-
-/// A number for each of some curves, so that formulas read as they do for one. Products and sums are rounded apart: the
-/// same comes out on every instruction set, and from the formulas for one curve.
-struct Number {
-    hn::Vec<D> v;
-    HWY_INLINE Number(hn::Vec<D> of_each) : v(of_each) {}
-    HWY_INLINE Number(double of_all) : v(hn::Set(D(), of_all)) {}
-    HWY_INLINE Number(const CurveLanes::Lanes& lanes, std::size_t from) : v(hn::LoadU(D(), &lanes[from])) {}
-    HWY_INLINE void store(CurveLanes::Lanes& lanes, std::size_t from) const { hn::StoreU(v, D(), &lanes[from]); }
-};
-HWY_INLINE Number operator+(Number a, Number b) { return hn::Add(a.v, b.v); }
-HWY_INLINE Number operator-(Number a, Number b) { return hn::Sub(a.v, b.v); }
-HWY_INLINE Number operator*(Number a, Number b) { return hn::Mul(a.v, b.v); }
-HWY_INLINE Number operator/(Number a, Number b) { return hn::Div(a.v, b.v); }
-HWY_INLINE Number operator-(Number a) { return hn::Neg(a.v); }
-HWY_INLINE Number magnitude(Number a) { return hn::Abs(a.v); }
-HWY_INLINE Number either(Mask first, Number one, Number other) { return hn::IfThenElse(first, one.v, other.v); }
-
-struct Vector {
-    Number x, y, z;
-    HWY_INLINE Vector(Number of_x, Number of_y, Number of_z) : x(of_x), y(of_y), z(of_z) {}
-    HWY_INLINE Vector(const glm::dvec3& of_all) : x(of_all.x), y(of_all.y), z(of_all.z) {}
-    HWY_INLINE Vector(const CurveLanes::Lanes3& lanes, std::size_t from)
-        : x(lanes[0], from), y(lanes[1], from), z(lanes[2], from) {}
-    HWY_INLINE void store(CurveLanes::Lanes3& lanes, std::size_t from) const {
-        x.store(lanes[0], from), y.store(lanes[1], from), z.store(lanes[2], from);
-    }
-};
-HWY_INLINE Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-HWY_INLINE Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-HWY_INLINE Vector operator*(Number f, const Vector& a) { return {f * a.x, f * a.y, f * a.z}; }
-HWY_INLINE Number dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
-}
-HWY_INLINE Vector times(const Sym3& m, const Vector& v) {
-    return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-            m.xz * v.x + m.yz * v.y + m.zz * v.z};
-}
-HWY_INLINE Number value(const Sym3& m, const Vector& v) {
-    return m.xx * v.x * v.x + m.yy * v.y * v.y + m.zz * v.z * v.z +
-           2.0 * (m.xy * v.x * v.y + m.xz * v.x * v.z + m.yz * v.y * v.z);
-}
-
 HWY_INLINE void find_conics(const EyeSolid& e, std::size_t at, CurveLanes& curves) {
     const Sym3& m = e.m;
     const Vector n(curves.normal, at), w = e.w;
@@ -105,41 +59,24 @@ struct Roots {
 HWY_INLINE Roots real_roots(Number a, Number b, Number c) {
     const Number discriminant = b * b - a * c;
     const Number rounding = -1e-12 * (b * b + magnitude(a * c));
-    const Number root = hn::Sqrt(hn::Max(hn::Zero(D()), discriminant.v));
-    const Number q = either(hn::Lt(discriminant.v, rounding.v), std::numeric_limits<double>::quiet_NaN(),
-                            -(b + hn::CopySign(root.v, b.v)));
+    const Number root = square_root(larger(0.0, discriminant));
+    const Number q =
+        either(discriminant < rounding, std::numeric_limits<double>::quiet_NaN(), -(b + with_sign_of(b, root)));
     return {q / a, c / q};
-}
-
-/// As loses and faces_eye say of one point.
-HWY_INLINE Mask loses(const EyePlane& plane, const Vector& p) {
-    const Number x = plane.normal.x * p.x, y = plane.normal.y * p.y, z = plane.normal.z * p.z;
-    const Number size = magnitude(x) + magnitude(y) + magnitude(z) + std::abs(plane.at_eye);
-    return hn::Lt((x + y + z + plane.at_eye + kKeeping * size).v, hn::Zero(D()));
-}
-HWY_INLINE Mask faces_eye(const EyeSolid& e, const Vector& p) {
-    const Number curved = value(e.m, p), straight = dot(e.v, p);
-    return hn::Le((curved + straight).v, (kKeeping * (magnitude(curved) + magnitude(straight))).v);
 }
 
 /// Writes down the points at depths k on some rays, those that may be seen of them.
 HWY_INLINE void store(const EyeSolid& e, Number own_plane, const Vector& ray, Number k, Mask seen, std::size_t at,
                       CurveLanes::Point& point) {
-    const D d;
-    const Vector p = k * ray;
-    seen = hn::And(seen, hn::And(hn::Gt(k.v, hn::Zero(d)), hn::Lt(k.v, hn::Inf(d))));
-    for (std::size_t i = 0; i < e.planes.size(); ++i) {
-        const Mask other = hn::Ne(own_plane.v, hn::Set(d, static_cast<double>(i)));
-        seen = hn::AndNot(hn::And(other, loses(e.planes[i], p)), seen);
-    }
+    const Mask in_front = hn::And(k > 0.0, k < std::numeric_limits<double>::infinity());
+    seen = hn::And(hn::And(seen, in_front), kept_by_planes(e, k * ray, own_plane));
     ray.x.store(point.xi, at);
     either(seen, ray.z, std::numeric_limits<double>::quiet_NaN()).store(point.zeta, at);
 }
 
 /// The limb's depth is that of contacts, the others' that of their plane.
 HWY_INLINE void find_extrema(const EyeSolid& e, const RowConic& limb, std::size_t at, CurveLanes& curves) {
-    const D d;
-    const Mask is_limb = hn::Eq(hn::Iota(d, static_cast<double>(at)), hn::Zero(d));
+    const Mask is_limb = Number(hn::Iota(D(), static_cast<double>(at))) == 0.0;
     const auto of = [&](const CurveLanes::Lanes& others, double of_limb) HWY_ATTR {
         return either(is_limb, of_limb, {others, at});
     };
@@ -149,8 +86,8 @@ HWY_INLINE void find_extrema(const EyeSolid& e, const RowConic& limb, std::size_
                                    0.5 * of(curves.discriminant[1], limb.discriminant[1]),
                                    of(curves.discriminant[0], limb.discriminant[0]));
     const Vector n(curves.normal, at);
-    const Number at_eye(curves.at_eye, at), own_plane = either(is_limb, -1.0, {curves.plane, at});
-    const Mask always = hn::Or(is_limb, hn::Le(at_eye.v, hn::Zero(d)));
+    const Number at_eye(curves.at_eye, at), own_plane = either(is_limb, kNoPlane, {curves.plane, at});
+    const Mask always = hn::Or(is_limb, at_eye <= 0.0);
     const auto put = [&](Number zeta, CurveLanes::Point& point) HWY_ATTR {
         const Vector ray(-(beta0 + zeta * beta1) / alpha, 1.0, zeta);
         const Number k = -either(is_limb, dot(e.v, ray), at_eye) / either(is_limb, value(e.m, ray), dot(n, ray));
@@ -164,7 +101,7 @@ HWY_INLINE void find_extrema(const EyeSolid& e, const RowConic& limb, std::size_
 HWY_INLINE void find_contacts(const EyeSolid& e, std::size_t at, CurveLanes& curves) {
     const Sym3& l = e.limb;
     const Vector line(curves.visibility_line, at);
-    const Mask by_zeta = hn::Ge(hn::Abs(line.x.v), hn::Abs(line.z.v));
+    const Mask by_zeta = magnitude(line.x) >= magnitude(line.z);
     const Number lead = either(by_zeta, line.x, line.z);
     const Number start = -line.y / lead, slope = -either(by_zeta, line.z, line.x) / lead;
     const Number uu = either(by_zeta, l.xx, l.zz), uy = either(by_zeta, l.xy, l.yz);
@@ -196,6 +133,8 @@ void FindPoints(const EyeSolid& e, const RowConic& limb, CurveLanes& curves) {
     }
 }
 
+bool FacesEye(const EyeSolid& e, const glm::dvec3& p) { return hn::AllTrue(D(), faces_eye(e, Vector(p))); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace quadrig
 HWY_AFTER_NAMESPACE();
@@ -205,6 +144,7 @@ namespace quadrig {
 
 HWY_EXPORT(FindCurvesAboutAxis);
 HWY_EXPORT(FindPoints);
+HWY_EXPORT(FacesEye);
 
 void find_curves_about_axis(const EyeSolid& solid, CurveLanes& curves) {
     HWY_DYNAMIC_DISPATCH(FindCurvesAboutAxis)(solid, curves);
@@ -212,6 +152,7 @@ void find_curves_about_axis(const EyeSolid& solid, CurveLanes& curves) {
 void find_points(const EyeSolid& solid, const RowConic& limb, CurveLanes& curves) {
     HWY_DYNAMIC_DISPATCH(FindPoints)(solid, limb, curves);
 }
+bool faces_eye(const EyeSolid& solid, const glm::dvec3& point) { return HWY_DYNAMIC_DISPATCH(FacesEye)(solid, point); }
 
 }  // namespace quadrig
 #endif

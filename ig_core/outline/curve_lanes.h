@@ -69,4 +69,8 @@ void find_curves_about_axis(const EyeSolid& solid, CurveLanes& curves);
 /// far side of the quadric, each to within kKeeping. Expects planes, conics and visibility lines.
 void find_points(const EyeSolid& solid, const RowConic& limb, CurveLanes& curves);
 
+/// Whether the quadric through one point of the sheared eye space is entered there by the ray from the eye, to within
+/// kKeeping.
+bool faces_eye(const EyeSolid& solid, const glm::dvec3& point);
+
 }  // namespace quadrig

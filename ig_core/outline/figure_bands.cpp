@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "ig_core/outline/boundary_lanes.h"
+
 namespace quadrig {
 namespace {
 

@@ -44,14 +44,6 @@ bool misses_row(const RowConic& conic, double zeta) {
     return discriminant < -kTouch * (beta * beta + std::abs(conic.alpha * conic.gamma_at(zeta)));
 }
 
-RowRoots roots_on_row(const RowConic& conic, double zeta) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    const double sum = beta <= 0.0 ? root - beta : -(beta + root);  // never cancels
-    const double one = sum / conic.alpha;
-    const double other = root == 0.0 ? one : conic.gamma_at(zeta) / sum;  // as in root_on_row
-    return beta <= 0.0 ? RowRoots{one, other} : RowRoots{other, one};
-}
-
 void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene, bool near_plane,
              bool infinity, SetUp set_up, EyeSolid& out) {
     out.set_up = set_up;
@@ -161,20 +153,6 @@ glm::dvec3 intersection_line(const EyeSolid& e, const EyePlane& i, const EyePlan
     if (e.set_up == SetUp::textbook_single) return textbook_intersection_line<float>(i, j);
     // b_j n_i - b_i n_j, expanded about the anchor.
     return j.local_offset * i.normal - i.local_offset * j.normal - glm::cross(e.anchor, glm::cross(i.normal, j.normal));
-}
-
-bool faces_eye(const EyeSolid& e, const glm::dvec3& p) {
-    const double curved = value(e.m, p), straight = glm::dot(e.v, p);
-    return curved + straight <= kKeeping * (std::abs(curved) + std::abs(straight));
-}
-
-bool kept_by_planes(const EyeSolid& e, const glm::dvec3& p, const EyePlane* own) {
-    int kept = 1;
-    for (const EyePlane& plane : e.planes) {
-        // No way out: none is foreseen.
-        kept &= static_cast<int>(!loses(plane, p)) | static_cast<int>(&plane == own);
-    }
-    return kept != 0;
 }
 
 int surface_at(const EyeSolid& e, double xi, double zeta) {

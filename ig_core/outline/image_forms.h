@@ -20,9 +20,7 @@
 /// and P at the eye, comes from extended precision in scene space.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -73,25 +71,6 @@ struct RowConic {
 /// everywhere.
 bool misses_row(const RowConic& conic, double zeta);
 
-/// Intercepts of a conic with a row: `rising`, where the form goes from negative to positive with xi, and `falling`.
-/// Each is infinite or NaN where it does not exist. A discriminant below zero counts as zero: rows just outside a curve
-/// touch it.
-struct RowRoots {
-    double rising;
-    double falling;
-};
-RowRoots roots_on_row(const RowConic& conic, double zeta);
-/// The same, one of them.
-inline double root_on_row(const RowConic& conic, double zeta, bool rising) {
-    const double root = std::sqrt(std::max(0.0, conic.discriminant_at(zeta))), beta = conic.beta_at(zeta);
-    const double sum = std::copysign(root + std::abs(beta), 0.0 - beta);  // never cancels
-    // gamma / sum or sum / alpha, looked up: no branch could foresee which. A row that only touches the conic has one
-    // root twice, and gamma and sum may both be nothing but rounding.
-    const std::array<double, 3> parts{conic.gamma_at(zeta), sum, conic.alpha};
-    const std::size_t first = ((beta <= 0.0) == rising) | (root == 0.0) ? 1 : 0;
-    return parts[first] / parts[first + 1];
-}
-
 /// What rows and samples ask for comes first, what only the set-up does last.
 struct EyeSolid {
     double x0 = 0, z0 = 0;  ///< image point of the sheared Y axis
@@ -132,17 +111,6 @@ glm::dvec3 intersection_line(const EyeSolid& solid, const EyePlane& i, const Eye
 
 /// Relative to what is summed up: a point kept in vain costs one more question, one lost costs a wrong picture.
 inline constexpr double kKeeping = 1e-6;
-/// Whether a plane takes a point of the sheared eye space away, by more than kKeeping beside its terms: a plane that
-/// holds both eye and point has nothing but their rounding.
-inline bool loses(const EyePlane& plane, const glm::dvec3& p) {
-    const glm::dvec3 along = plane.normal * p;
-    const double size = std::abs(along.x) + std::abs(along.y) + std::abs(along.z) + std::abs(plane.at_eye);
-    return along.x + along.y + along.z + plane.at_eye + kKeeping * size < 0.0;
-}
-/// Whether the quadric through a point is entered there by the ray from the eye, p'Mp + v.p <= 0, to within kKeeping.
-bool faces_eye(const EyeSolid& solid, const glm::dvec3& point);
-/// Whether every plane but `own` keeps it.
-bool kept_by_planes(const EyeSolid& solid, const glm::dvec3& point, const EyePlane* own);
 
 /// First surface that the ray through (xi, zeta) enters, as EyePlane::surface (0 the quadric), or kNoSurface;
 /// kNearSurface is turned into kNoSurface. This is the slow, sure answer for one ray; z-bands carry it from row to row.

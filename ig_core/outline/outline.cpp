@@ -7,6 +7,7 @@
 #include <span>
 
 #include "ig_core/geometry/fetch.h"
+#include "ig_core/outline/boundary_lanes.h"
 #include "ig_core/outline/convex_rows.h"
 #include "ig_core/outline/key_points.h"
 #include "ig_core/outline/row_order.h"
@@ -100,21 +101,6 @@ void tell_bands(Outline& out) {
 }
 
 }  // namespace
-
-double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
-    switch (boundary.kind) {
-        case Boundary::Kind::rising:
-        case Boundary::Kind::falling:
-            return root_on_row(outline.curves[boundary.index], zeta, boundary.kind == Boundary::Kind::rising);
-        case Boundary::Kind::line:
-            return outline.lines[boundary.index].on_row(zeta);
-        case Boundary::Kind::left_end:
-            return -kInfinity;
-        case Boundary::Kind::right_end:
-            return kInfinity;
-    }
-    return kInfinity;
-}
 
 void make_outline(const Solid& solid, std::uint32_t object, const ScenePoint& eye, const glm::dmat3& eye_from_scene,
                   const RowGrid& rows, Outline& out, SetUp set_up) {

@@ -37,7 +37,6 @@ struct EdgeLine {
     glm::dvec3 line{0.0};  ///< X_ij of Eq 14
     double zeta_from = 0, zeta_to = 0;
     std::uint8_t plane = 0, other_plane = 0;  ///< i and j, indices into EyeSolid::planes
-    [[nodiscard]] double on_row(double zeta) const { return -(line.y + line.z * zeta) / line.x; }
 };
 
 /// Rows on which a curve can be seen: from the first to the last of the key points on it.
@@ -129,9 +128,6 @@ inline int cuts_on_row(const Outline& outline, double z, Cut* cuts) {
 
 /// The same by the row's z-band alone; absent where the row has to be solved directly.
 std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& band, Cut* cuts);
-
-/// Where a boundary crosses the row zeta: xi, infinite at the ends of a row.
-double intercept(const Outline& outline, const Boundary& boundary, double zeta);
 
 /// Ends of an outline that is nothing but its limb, on several scan lines at once; from > to where a line misses it.
 void limb_on_lines(const Outline& outline, const double* z, std::size_t count, double* from, double* to);

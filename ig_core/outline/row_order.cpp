@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ig_core/outline/boundary_lanes.h"
+
 namespace quadrig {
 namespace {
 
@@ -15,40 +17,26 @@ struct Candidate {
 
 /// Every place on a row where the visible surface may change, sorted. Of a bounded solid only what lies on it counts.
 std::size_t candidates_on_row(const Outline& outline, double zeta, std::array<Candidate, RowOrder::kCapacity>& out) {
-    const EyeSolid& e = outline.solid;
     std::size_t count = 0;
     const auto add = [&](double xi, Boundary boundary) {
         if (std::isfinite(xi) && count < out.size()) out[count++] = {xi, boundary};
     };
-    const auto add_roots = [&](std::uint16_t curve, auto&& on_solid) {
+    const auto add_roots = [&](std::uint16_t curve, const EyePlane* plane) {
         if (!outline.direct && !outline.curves[curve].rows.may_hold(zeta)) return;
         if (misses_row(outline.curves[curve], zeta)) return;
-        const RowRoots roots = roots_on_row(outline.curves[curve], zeta);
-        if (on_solid(roots.rising)) add(roots.rising, {Boundary::Kind::rising, curve});
-        if (on_solid(roots.falling)) add(roots.falling, {Boundary::Kind::falling, curve});
+        const RowRoots roots = roots_on_solid(outline, curve, plane, zeta);
+        add(roots.rising, {Boundary::Kind::rising, curve});
+        add(roots.falling, {Boundary::Kind::falling, curve});
     };
-    // The point at k = over/under on the ray; where `under` is little more than rounding, nothing is known of it.
-    const auto kept = [&](const glm::dvec3& d, double over, double under, const EyePlane* own) {
-        constexpr double kUnknown = 1e-8;
-        if (outline.direct || !(std::abs(under) > kUnknown * glm::dot(d, d))) return true;
-        const double k = over / under;
-        return k > 0.0 && kept_by_planes(e, k * d, own);
-    };
-    add_roots(0, [&](double xi) {
-        const glm::dvec3 d(xi, 1.0, zeta);
-        return kept(d, -glm::dot(e.v, d), value(e.m, d), nullptr);
-    });
+    add_roots(0, nullptr);
     std::uint16_t curve = 1;
-    for (const EyePlane& plane : e.planes) {
-        if (!plane.cuts) continue;
-        add_roots(curve++, [&](double xi) {
-            const glm::dvec3 d(xi, 1.0, zeta);
-            return kept(d, -plane.at_eye, glm::dot(plane.normal, d), &plane);
-        });
-    }
-    for (std::uint16_t i = 0; i < outline.lines.size(); ++i)
+    for (const EyePlane& plane : outline.solid.planes)
+        if (plane.cuts) add_roots(curve++, &plane);
+    for (std::uint16_t i = 0; i < outline.lines.size(); ++i) {
+        const Boundary line{Boundary::Kind::line, i};
         if (zeta >= outline.lines[i].zeta_from && zeta <= outline.lines[i].zeta_to)
-            add(outline.lines[i].on_row(zeta), {Boundary::Kind::line, i});
+            add(intercept(outline, line, zeta), line);
+    }
     std::sort(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Candidate& a, const Candidate& b) { return a.xi < b.xi; });
     return count;

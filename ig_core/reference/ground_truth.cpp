@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/vec3.hpp>
 
 #include "ig_core/reference/entry_bounds.h"
 #include "ig_core/reference/reference_renderer.h"

@@ -1,10 +1,8 @@
 #include "ig_core/scene/motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <utility>
 
 #include "ig_core/scene/placement.h"
 
@@ -82,7 +80,7 @@ Scene scene_at(const Scene& scene, double seconds) {
 void move(const Solid& at_rest, const ScenePose& pose, Solid& moved) {
     const glm::dmat3 scene_from_own = glm::transpose(pose.eye_from_scene);
     moved = at_rest;
-    moved.anchor = {pose.position.metres + scene_from_own * at_rest.anchor.metres};
+    moved.anchor = place_on(pose, at_rest.anchor.metres);
     moved.m = congruent(at_rest.m, pose.eye_from_scene);
     moved.adjugate = congruent(at_rest.adjugate, pose.eye_from_scene);
     moved.w = scene_from_own * at_rest.w;

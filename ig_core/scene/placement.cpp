@@ -43,7 +43,7 @@ std::optional<Object> placed(const Object& object, const ScenePose& pose) {
     const glm::dmat3 scene_from_model = glm::transpose(pose.eye_from_scene);
     Object result = object;
     if (auto* ellipsoid = std::get_if<Ellipsoid>(&result.shape)) {
-        ellipsoid->centre = {pose.position.metres + scene_from_model * ellipsoid->centre.metres};
+        ellipsoid->centre = place_on(pose, ellipsoid->centre.metres);
         ellipsoid->attitude = attitude_of(eye_from_scene_rotation(ellipsoid->attitude) * pose.eye_from_scene);
     } else if (auto* quadric = std::get_if<GeneralQuadric>(&result.shape)) {
         *quadric = placed(*quadric, pose);

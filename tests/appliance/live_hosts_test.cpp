@@ -4,7 +4,6 @@
 #include <csignal>
 #include <fstream>
 #include <set>
-#include <thread>
 
 #include "tests/appliance/files.h"
 #include "tests/appliance/host_socket.h"

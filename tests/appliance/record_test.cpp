@@ -1,7 +1,7 @@
 // Recordings that the program writes: read by tshark, played again bit for bit, whole after a kill.
 #include <signal.h>
+#include <vector>
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <set>

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 #include <sstream>
 
 #include "display/png_file.h"

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "config/camera_path.h"

@@ -1,10 +1,6 @@
 /// Visibility: outline set-up, cuts on rows, the sweep; and how many rows needed the direct solution.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <map>
-#include <numbers>
-
 #include "config/camera_path.h"
 #include "config/scene_file.h"
 #include "ig_core/spans/object_spans.h"

@@ -1,6 +1,5 @@
 #include "frame_scheduler/budget_control.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <set>

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/seeds.h"

@@ -3,7 +3,6 @@
 
 #include <random>
 #include <span>
-#include <vector>
 
 #include "tests/fuzz/messages.h"
 

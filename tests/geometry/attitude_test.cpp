@@ -35,6 +35,21 @@ glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, Degrees angle) {
     return c * v + s * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
 }
 
+/// Heading, pitch and roll, one after the other, each about an axis of the body's own.
+Axes turned(Axes a, const Attitude& attitude) {
+    a.forward = turned(a.forward, a.up, {-attitude.heading.value});
+    a.right = turned(a.right, a.up, {-attitude.heading.value});
+    a.forward = turned(a.forward, a.right, attitude.pitch), a.up = turned(a.up, a.right, attitude.pitch);
+    a.right = turned(a.right, a.forward, attitude.roll), a.up = turned(a.up, a.forward, attitude.roll);
+    return a;
+}
+
+void require_same(const Axes& a, const Axes& b) {
+    REQUIRE(glm::length(a.right - b.right) < 1e-14);
+    REQUIRE(glm::length(a.forward - b.forward) < 1e-14);
+    REQUIRE(glm::length(a.up - b.up) < 1e-14);
+}
+
 }  // namespace
 
 TEST_CASE("a level eye heading north looks along Y, with X to the right and Z up") {
@@ -61,15 +76,27 @@ TEST_CASE("heading, pitch and roll turn the body about its own axes, in this ord
     for (int trial = 0; trial < trials(1000); ++trial) {
         Randomness random(trial);
         const Attitude attitude{{random.between(-360, 720)}, {random.between(-90, 90)}, {random.between(-360, 360)}};
-        glm::dvec3 right(1, 0, 0), forward(0, 1, 0), up(0, 0, 1);
-        forward = turned(forward, up, {-attitude.heading.value}), right = turned(right, up, {-attitude.heading.value});
-        forward = turned(forward, right, attitude.pitch), up = turned(up, right, attitude.pitch);
-        right = turned(right, forward, attitude.roll), up = turned(up, forward, attitude.roll);
-        const Axes axes = axes_of(attitude);
         CAPTURE(trial);
-        REQUIRE(glm::length(axes.right - right) < 1e-14);
-        REQUIRE(glm::length(axes.forward - forward) < 1e-14);
-        REQUIRE(glm::length(axes.up - up) < 1e-14);
+        require_same(axes_of(attitude), turned({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, attitude));
+    }
+}
+
+TEST_CASE("what rides on a body is where its offset along the body's axes puts it, and turns from them") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(1000); ++trial) {
+        Randomness random(trial);
+        const Attitude attitude = random.attitude(), own = random.attitude();
+        const ScenePose body{{random.vector(1e4)}, eye_from_scene_rotation(attitude)};
+        const glm::dvec3 offset = random.vector(5);
+        const ScenePose pose = pose_on(body, {{offset}, eye_from_scene_rotation(own)});
+        const Axes axes = axes_of(attitude);
+        const glm::dvec3 place =
+            body.position.metres + offset.x * axes.right + offset.y * axes.forward + offset.z * axes.up;
+        CAPTURE(trial);
+        REQUIRE(glm::length(pose.position.metres - place) < 1e-11);
+        REQUIRE(pose.position == place_on(body, offset));
+        const glm::dmat3 scene_from_own = glm::transpose(pose.eye_from_scene);
+        require_same({scene_from_own[0], scene_from_own[1], scene_from_own[2]}, turned(axes, own));
     }
 }
 

@@ -1,6 +1,5 @@
 // CAN frames and CANaerospace messages: the specification's own examples, other programs' readings, and the commit
 // rule.
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>

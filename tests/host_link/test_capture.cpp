@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <vector>
 
 #include "host_link/canaerospace.h"
 #include "host_link/capture.h"

@@ -1,6 +1,5 @@
 // Wireshark's dissector as the judge: rates, weather, components, sensors, collisions, messages.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "host_link/cigi_query.h"
 #include "tshark_judge.h"

@@ -95,28 +95,3 @@ TEST_CASE(
     const ScenePose north = frame.pose({{47.9}, {11.0}, 500.0}, {{0.0}, {0.0}, {0.0}});
     CHECK(attitude_of(north.eye_from_scene).pitch.value == Approx(-0.9).epsilon(1e-12));
 }
-
-TEST_CASE("An eye rides on its body by offset and attitude") {
-    const std::uint64_t seed = std::random_device{}();
-    INFO("seed " << seed);
-    std::mt19937_64 random(seed);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
-    for (int i = 0; i < 500; ++i) {
-        const Attitude attitude{{uniform(0, 360)}, {uniform(-90, 90)}, {uniform(-180, 180)}};
-        const ScenePose body{{{uniform(-1e4, 1e4), uniform(-1e4, 1e4), uniform(0, 1e4)}},
-                             eye_from_scene_rotation(attitude)};
-        const ViewMount mount{{uniform(-5, 5), uniform(-5, 5), uniform(-5, 5)},
-                              {{uniform(0, 360)}, {uniform(-90, 90)}, {uniform(-180, 180)}}};
-        const ScenePose eye = eye_pose(body, mount);
-        const Body b = turned({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, attitude);
-        const glm::dvec3 position =
-            body.position.metres + b.right * mount.offset.x + b.forward * mount.offset.y + b.up * mount.offset.z;
-        CHECK(glm::length(eye.position.metres - position) < 1e-11);
-        const Body e = turned(b, mount.attitude);
-        CHECK(glm::length(axis(eye, 0) - e.right) < 1e-14);
-        CHECK(glm::length(axis(eye, 1) - e.forward) < 1e-14);
-        CHECK(glm::length(axis(eye, 2) - e.up) < 1e-14);
-    }
-}

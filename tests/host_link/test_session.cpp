@@ -46,7 +46,10 @@ Bytes frame(std::uint32_t number, double latitude = 47.26, ByteOrder order = Byt
     return message(order, ig_control(number, number * 1667), ownship(latitude));
 }
 
-Bytes fdm(double latitude_degrees, std::uint32_t cur_time = flightgear::kNoTime, std::uint32_t version = 24) {
+/// What JSBSim sends as cur_time where its output is not set up to send the time.
+constexpr std::uint32_t kNoTime = 1234567890;
+
+Bytes fdm(double latitude_degrees, std::uint32_t cur_time = kNoTime, std::uint32_t version = 24) {
     flightgear::NetFdm packet;
     packet.version = version;
     packet.latitude = Degrees{latitude_degrees}.radians();

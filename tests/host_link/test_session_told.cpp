@@ -1,6 +1,5 @@
 // Weather, components and view groups, and what a CIGI host is told without asking: collisions, sensors, warnings.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
 
 #include "host_link/cigi_query.h"

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
 

@@ -1,7 +1,5 @@
 #include "tests/ig_core/random_scene.h"
 
-#include <glm/matrix.hpp>
-
 #include "tests/ig_core/random_objects.h"
 
 namespace quadrig::test {

@@ -1,7 +1,6 @@
 /// Pictures to look at, pixel by pixel.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <vector>
 

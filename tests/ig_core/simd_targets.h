@@ -3,7 +3,6 @@
 
 #include <hwy/highway.h>
 
-#include <string_view>
 #include <vector>
 
 namespace quadrig::test {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "ig_core/outline/boundary_lanes.h"
 #include "ig_core/view.h"
 #include "tests/ig_core/random_objects.h"
 #include "tests/ig_core/simd_targets.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "tests/ig_core/exact_solid.h"
 #include "tests/outline/figure_cases.h"

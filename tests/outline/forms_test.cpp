@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "ig_core/outline/boundary_lanes.h"
 #include "ig_core/outline/curve_lanes.h"
 #include "tests/ig_core/random_objects.h"
 #include "tests/ig_core/simd_targets.h"
@@ -59,6 +60,14 @@ CurveLanes lanes_of(const EyeSolid& solid) {
     for (std::size_t j = 0; j < solid.planes.size(); ++j)
         if (solid.planes[j].cuts) curves.add(j, solid.planes[j]);
     return curves;
+}
+
+/// All of a curve: that of a solid without end or planes.
+RowRoots roots_on_row(const RowConic& conic, double zeta) {
+    Outline outline;
+    outline.direct = true;
+    outline.curves.push_back({conic, {}, {}});
+    return roots_on_solid(outline, 0, nullptr, zeta);
 }
 
 Real3 random_ray(Randomness& random) { return {random.between(-2, 2), 1, random.between(-2, 2)}; }
@@ -285,8 +294,10 @@ TEST_CASE("an intersection line holds the rays to the points that lie on both pl
     CHECK(points > 500);
 }
 
-TEST_CASE("row roots are the conic's zeros, the rising one where the form grows to the right") {
+TEST_CASE(
+    "row roots are the conic's zeros, the rising one where the form grows to the right, on every instruction set") {
     CAPTURE(seed());
+    const std::vector<std::int64_t> targets = simd_targets();
     int checked = 0;
     for (int trial = 0; trial < trials(5000); ++trial) {
         Randomness random(trial);
@@ -301,6 +312,7 @@ TEST_CASE("row roots are the conic's zeros, the rising one where the form grows 
         conic.discriminant = {b0 * b0 - alpha * g0, 2 * b0 * b1 - alpha * g1, b1 * b1 - alpha * g2};
         const double zeta = random.between(-1, 1);
         if (conic.discriminant_at(zeta) < 1e-6) continue;
+        const SimdTarget held(targets[static_cast<std::size_t>(trial) % targets.size()]);
         const RowRoots roots = roots_on_row(conic, zeta);
         const Real beta = b0 + static_cast<Real>(zeta) * b1,
                    gamma = g0 + static_cast<Real>(zeta) * (g1 + static_cast<Real>(zeta) * g2);

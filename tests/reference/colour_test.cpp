@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "ig_core/reference/surface_colour.h"
 #include "tests/reference/scene_makers.h"

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -223,9 +224,10 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
         return;
     }
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
+    constexpr double kMost = 1e6;
     url.altitude_offset = number<double>(value);
-    if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
-        fail(url, "altitude_offset is a number of metres");
+    if (!url.altitude_offset || !(std::abs(*url.altitude_offset) <= kMost))
+        fail(url, "altitude_offset is a number of metres from -1e6 to 1e6, not '" + std::string(value) + "'");
 }
 
 }  // namespace
@@ -254,9 +256,11 @@ LinkUrl parse_link_url(std::string_view text) {
     } else if (!endpoint.empty()) {
         fail(url, "expected '//' after '" + std::string(scheme) + ":'");
     }
+    std::set<std::string_view> keys;
     while (!query.empty()) {
         const auto [option, more] = split(query, '&');
         const auto [key, value] = split(option, '=');
+        if (!keys.insert(key).second) fail(url, "option '" + std::string(key) + "' is given twice");
         set_option(url, key, value);
         query = more;
     }

@@ -109,6 +109,8 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("cigi://127.0.0.1:80?version=5"), Contains("unknown CIGI version"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=1.1e6"), Contains("metres from -1e6 to 1e6"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?view=1&ownship=2&view=1"), Contains("'view' is given twice"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?transport=sctp"), Contains("udp or tcp"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?transport=tcp"), Contains("unknown option"));

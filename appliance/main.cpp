@@ -51,8 +51,10 @@ std::string reason(const CLI::App& program, const CLI::ParseError& error) {
 
 int main(int argc, char** argv) {
     keep_standard_streams_apart();
-    // A reader that goes away is an error of the write, not the end of the program.
+    // A reader that goes away, or a file too large for `ulimit -f`, is an error of the write, not the end of the
+    // program.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 
     CLI::App program("Quadrig: an image generator that a flight simulator's host drives over the network.", "quadrig");
     program.set_version_flag("--version", "quadrig " QUADRIG_VERSION, "Say which version this is, and stop");

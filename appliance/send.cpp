@@ -14,6 +14,8 @@
 namespace quadrig::appliance {
 namespace {
 
+constexpr double kSlowest = 1e-3, kFastest = 1e6;
+
 struct SendOptions {
     std::filesystem::path recording;
     std::optional<host::LinkUrl> to;
@@ -22,7 +24,8 @@ struct SendOptions {
 
 void send(const SendOptions& options) {
     if (!options.to) throw WrongUse("--to is missing: where to?");
-    if (!(options.speed > 0.0)) throw WrongUse("--speed is above 0");
+    if (options.to->port == 0) throw WrongUse("--to " + options.to->text + ": nobody listens at port 0");
+    if (!(options.speed >= kSlowest && options.speed <= kFastest)) throw WrongUse("--speed is a number in 1e-3..1e6");
     watch_stop_signals();
     const host::Capture capture = host::read_capture(options.recording, options.to->protocol);
     const auto sender = host::open_sender(*options.to);

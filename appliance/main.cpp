@@ -9,6 +9,7 @@
 #include <new>
 
 #include "appliance/commands.h"
+#include "host_link/link_url.h"
 
 namespace {
 
@@ -91,6 +92,8 @@ int main(int argc, char** argv) {
         program.exit(error);  // --help, --version
         return done();
     } catch (const WrongUse& error) {
+        return wrong_use(program, error.what());
+    } catch (const quadrig::host::LinkUrlError& error) {
         return wrong_use(program, error.what());
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for this", kFailed);

@@ -40,7 +40,7 @@ LinkUrl looked_up(LinkUrl url) {
         if (address.empty() && (!reply || reply->address.v6 == (family == AF_INET6)))
             address = numeric_address(url.address, family, error);
     if (address.empty())
-        throw std::runtime_error("link '" + url.text + "': host '" + url.address + "': " + gai_strerror(error));
+        throw LinkUrlError("link '" + url.text + "': host '" + url.address + "': " + gai_strerror(error));
     url.address = address;
     return url;
 }

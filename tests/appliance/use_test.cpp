@@ -96,6 +96,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
     const std::string cameras = scratch_file("cameras.json", R"([{"eye":[0,0,8],"attitude":[0,0,0],"fov":60}])");
     const std::string picture = scratch_directory() / "never.png";
     const Arguments render{"render", scene, "-o", picture};
+    const std::string nobody(64, 'x');  // longer than names are: no name server is asked
     struct Case {
         Arguments arguments;
         std::string reason;
@@ -149,7 +150,8 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene}, "--link"},
         {{"run", "--scene", scene, "--link", "fdm:"}, "ADDRESS:PORT"},
         {{"run", "--scene", scene, "--link", "fdm://localhost:99999"}, "99999"},
-        {{"run", "--scene", scene, "--link", "fdm://far.example:5500"}, "far.example"},
+        {{"run", "--scene", scene, "--link", "fdm://127.0.0.300:5500"}, "bad address '127.0.0.300'"},
+        {{"run", "--scene", scene, "--link", "fdm://" + nobody + ":5500"}, "host '" + nobody + "'"},
         {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=5"}, "version"},
         {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:0?word_order=up"}, "word_order"},
         {{"bench", scene}, "--path"},

@@ -155,7 +155,7 @@ constexpr const char* kAccuracyNotes =
     "steps of 255 in sRGB. Times are medians of runs in which all settings take turns; cost is the median of the\n"
     "time's ratio to the default's in the same run. The exact pictures take a minute or so for each camera.\n\n"
     "Example:\n"
-    "  quadrig accuracy config/scenes/village.toml --path config/scenes/village_cameras.json --plot accuracy.svg";
+    "  quadrig accuracy config/scenes/takeoff.toml --path config/scenes/takeoff_cameras.json --plot accuracy.svg";
 
 }  // namespace
 

@@ -60,7 +60,8 @@ constexpr const char* kBenchNotes =
     "  [{\"eye\": [0, 0, 8], \"attitude\": [10, 0, 0], \"fov\": 60}, ...]\n"
     "--rate only says how far textures drift from frame to frame; frames follow each other as fast as they can.\n\n"
     "Example:\n"
-    "  quadrig bench config/scenes/village.toml --path cameras.json --frames 600 --threads 2 --report bench.json";
+    "  quadrig bench config/scenes/takeoff.toml --path config/scenes/takeoff_cameras.json --frames 600 --threads 2 \\\n"
+    "      --report bench.json";
 
 }  // namespace
 

@@ -28,6 +28,9 @@ struct GalleryOptions {
 };
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& directory) {
+    std::error_code error;
+    if (std::filesystem::directory_iterator(directory, error); error)
+        throw std::runtime_error(directory.string() + ": cannot be read: " + error.message());
     std::vector<std::filesystem::path> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(directory))
         if (entry.path().extension() == ".toml") scenes.push_back(entry.path());

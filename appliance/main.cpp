@@ -9,6 +9,7 @@
 #include <new>
 
 #include "appliance/commands.h"
+#include "host_link/link_url.h"
 
 namespace {
 
@@ -51,8 +52,10 @@ std::string reason(const CLI::App& program, const CLI::ParseError& error) {
 
 int main(int argc, char** argv) {
     keep_standard_streams_apart();
-    // A reader that goes away is an error of the write, not the end of the program.
+    // A reader that goes away, or a file too large for `ulimit -f`, is an error of the write, not the end of the
+    // program.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 
     CLI::App program("Quadrig: an image generator that a flight simulator's host drives over the network.", "quadrig");
     program.set_version_flag("--version", "quadrig " QUADRIG_VERSION, "Say which version this is, and stop");
@@ -89,6 +92,8 @@ int main(int argc, char** argv) {
         program.exit(error);  // --help, --version
         return done();
     } catch (const WrongUse& error) {
+        return wrong_use(program, error.what());
+    } catch (const quadrig::host::LinkUrlError& error) {
         return wrong_use(program, error.what());
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for this", kFailed);

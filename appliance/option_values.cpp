@@ -73,8 +73,12 @@ std::uint64_t read_count(const std::string& text) {
     return *count;
 }
 
-double read_number(const std::string& text) {
-    return number_in(text, "a number", [](double) { return true; });
+double read_speed(const std::string& text) {
+    return number_in(text, "a factor in 1e-3..1e6", [](double x) { return x >= 1e-3 && x <= 1e6; });
+}
+
+double read_scene_time(const std::string& text) {
+    return number_in(text, "seconds in -1e9..1e9", [](double x) { return std::abs(x) <= 1e9; });
 }
 
 config::QualityStep read_quality(const std::string& text) {

@@ -27,7 +27,8 @@ scheduler::Time read_duration(const std::string& text);
 /// A whole number of at least 1.
 std::uint64_t read_count(const std::string& text);
 /// A finite number.
-double read_number(const std::string& text);
+double read_speed(const std::string& text);
+double read_scene_time(const std::string& text);
 /// A step of the shipped quality ladder.
 config::QualityStep read_quality(const std::string& text);
 host::LinkUrl read_link(const std::string& text);

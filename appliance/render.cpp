@@ -107,7 +107,7 @@ void add_render(CLI::App& program, Action& action) {
     add_option(command, "--fov", options->fov, read_field_of_view,
                "Horizontal field of view, degrees above 0 and below 180 (required)", "DEG")
         ->required();
-    add_option(command, "--time", options->seconds, read_number,
+    add_option(command, "--time", options->seconds, read_scene_time,
                "Scene time, by which textures drift and objects move (default 0)", "S");
     command.add_option("-o,--output", options->picture, "Write the picture")->option_text("PICTURE.png");
     command.add_option("--object-ids", options->object_ids, "Write which object is seen")->option_text("IDS.npy");

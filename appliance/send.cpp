@@ -22,7 +22,7 @@ struct SendOptions {
 
 void send(const SendOptions& options) {
     if (!options.to) throw WrongUse("--to is missing: where to?");
-    if (!(options.speed > 0.0)) throw WrongUse("--speed is above 0");
+    if (options.to->port == 0) throw WrongUse("--to " + options.to->text + ": nobody listens at port 0");
     watch_stop_signals();
     const host::Capture capture = host::read_capture(options.recording, options.to->protocol);
     const auto sender = host::open_sender(*options.to);
@@ -60,7 +60,7 @@ void add_send(CLI::App& program, Action& action) {
         command, "--to", options->to, read_live_link,
         "Where to: cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\ncan://INTERFACE or modbus://ADDRESS:PORT (required)",
         "URL");
-    add_option(command, "--speed", options->speed, read_number, "Times as fast as it was recorded (default 1)", "X");
+    add_option(command, "--speed", options->speed, read_speed, "Times as fast as it was recorded (default 1)", "X");
     command.footer(kSendNotes);
     command.callback([options, &action] { action = [options] { send(*options); }; });
 }

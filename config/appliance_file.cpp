@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "config/model_section.h"
 #include "config/place_section.h"
 #include "config/toml_section.h"
 
@@ -37,7 +38,7 @@ host::LinkUrl link_from(const std::string& text, const Refuse& refuse) {
 }
 
 ApplianceSettings::EntityModel entity_from(const TomlSection& section) {
-    ApplianceSettings::EntityModel entity{section.text("model"), {}};
+    ApplianceSettings::EntityModel entity{model_name(section), {}};
     const int ways =
         int{section.has("type")} + int{section.has("position")} + int{section.has("place")} + int{section.has("link")};
     if (ways != 1)

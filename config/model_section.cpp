@@ -9,10 +9,21 @@
 namespace quadrig::config {
 namespace {
 
+std::filesystem::path models_directory() { return config_directory() / "models"; }
+
+std::filesystem::path file_of(const std::string& model) { return models_directory() / (model + ".toml"); }
+
 /// Names become parts of paths.
 bool is_plain(const std::string& name) {
     return name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
 }
+
+bool is_model(const std::string& name) {
+    std::error_code none;
+    return is_plain(name) && std::filesystem::exists(file_of(name), none);
+}
+
+std::string expected_model() { return "the name of a file in " + models_directory().string(); }
 
 }  // namespace
 
@@ -32,22 +43,23 @@ std::vector<Object> read_model(const std::filesystem::path& file) {
 }
 
 Model named_model(const std::string& name) {
-    const std::filesystem::path file = config_directory() / "models" / (name + ".toml");
-    if (!is_plain(name) || !std::filesystem::exists(file))
-        throw FileError(file.parent_path(), 0, "", "expected a model, found none named \"" + name + "\"");
-    return {name, read_model(file)};
+    if (!is_model(name)) throw std::runtime_error("model: expected " + expected_model() + ", found \"" + name + "\"");
+    return {name, read_model(file_of(name))};
+}
+
+std::string model_name(const TomlSection& section) {
+    std::string name = section.text("model");
+    if (!is_model(name)) section.refuse("model", expected_model(), "\"" + name + "\"");
+    return name;
 }
 
 void add_models(const TomlSection& document, Names& names, Scene& scene) {
     std::map<std::string, std::vector<Object>> models;
     std::size_t count = 0;
     for (const auto& section : document.tables("model", {"name", "model", "position", "attitude"})) {
-        const std::string model = section.text("model"), name = section.optional_text("name").value_or(model);
-        const std::filesystem::path file = config_directory() / "models" / (model + ".toml");
-        if (!is_plain(model) || !std::filesystem::exists(file))
-            section.refuse("model", "the name of a file in " + file.parent_path().string(), "\"" + model + "\"");
+        const std::string model = model_name(section), name = section.optional_text("name").value_or(model);
         const auto [known, is_new] = models.try_emplace(model);
-        if (is_new) known->second = read_model(file);
+        if (is_new) known->second = read_model(file_of(model));
         const ScenePose pose = scene_pose_in(section);
         count += known->second.size();
         if (count > kMostPlacedObjects) section.refuse("expected at most 100000 objects of all models, found more");

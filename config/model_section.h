@@ -14,9 +14,12 @@ inline constexpr std::size_t kMostModelObjects = 1000, kMostPlacedObjects = 100'
 /// and hills. Throws FileError.
 std::vector<Object> read_model(const std::filesystem::path& file);
 
-/// A model by its name: a file in config_directory()/models. Throws FileError, with the names there are where there is
-/// none of that name.
+/// A model by its name: a file in config_directory()/models. Throws std::runtime_error where there is none of that
+/// name, FileError where it is wrong.
 Model named_model(const std::string& name);
+
+/// What a table's `model` names; throws FileError where that is no file in config_directory()/models.
+std::string model_name(const TomlSection& section);
 
 /// Puts the objects of the document's models behind those the scene has; `names` are the objects' names so far. Throws
 /// FileError.

@@ -9,15 +9,16 @@
 namespace quadrig::config {
 namespace {
 
-constexpr double kMostWeight = 1e60;  // squares of sums are to be numbers still, and no zeros
-constexpr NumberRule kWeight{"a number in 0..1e60", [](double x) { return x >= 0.0 && x <= kMostWeight; }};
+constexpr double kMost = 1e60;  // products, and squares of sums, are to be numbers still, and no zeros
+constexpr NumberRule kUpwards{"a number in 0..1e60", [](double x) { return x >= 0.0 && x <= kMost; }};
+constexpr NumberRule kEitherWay{"a number in -1e60..1e60", [](double x) { return x >= -kMost && x <= kMost; }};
+constexpr NumberRule kFrequency{"a number above 0 and at most 1e60", [](double x) { return x > 0.0 && x <= kMost; }};
 constexpr NumberRule kScale{"a factor in 1e-6..1e6", [](double x) { return x >= 1e-6 && x <= 1e6; }};
 
 std::vector<TextureTerm> read_terms(const TomlSection& section) {
-    constexpr std::size_t kMost = kMaxTextureTerms;
-    const auto coefficients = section.numbers("coefficients", kWeight, 1, kMost);
-    const auto frequencies = section.numbers("frequencies", kPositive, 1, kMost);
-    const auto phases = section.numbers("phases", kAnyNumber, 1, kMost);
+    const auto coefficients = section.numbers("coefficients", kUpwards, 1, kMaxTextureTerms);
+    const auto frequencies = section.numbers("frequencies", kFrequency, 1, kMaxTextureTerms);
+    const auto phases = section.numbers("phases", kEitherWay, 1, kMaxTextureTerms);
     const auto refuse_other_length = [&](std::string_view name, const std::vector<double>& values) {
         if (values.size() == coefficients.size()) return;
         section.refuse(name, "as many as the " + std::to_string(coefficients.size()) + " coefficients",
@@ -25,7 +26,7 @@ std::vector<TextureTerm> read_terms(const TomlSection& section) {
     };
     refuse_other_length("frequencies", frequencies);
     refuse_other_length("phases", phases);
-    if (std::accumulate(coefficients.begin(), coefficients.end(), 0.0) < 1.0 / kMostWeight) {
+    if (std::accumulate(coefficients.begin(), coefficients.end(), 0.0) < 1.0 / kMost) {
         section.refuse("coefficients", "a sum of at least 1e-60", "less");
     }
     std::vector<TextureTerm> terms;
@@ -35,10 +36,10 @@ std::vector<TextureTerm> read_terms(const TomlSection& section) {
 
 /// Vertical variation, and what moves with time; what is absent stays.
 void read_movement(const TomlSection& section, Texture& texture) {
-    texture.vertical = section.number_or("vertical", kNotNegative, texture.vertical);
-    if (section.has("drift")) texture.drift = section.pair("drift", kAnyNumber);
-    texture.rise = section.number_or("rise", kAnyNumber, texture.rise);
-    texture.churn = section.number_or("churn", kAnyNumber, texture.churn);
+    texture.vertical = section.number_or("vertical", kUpwards, texture.vertical);
+    if (section.has("drift")) texture.drift = section.pair("drift", kEitherWay);
+    texture.rise = section.number_or("rise", kEitherWay, texture.rise);
+    texture.churn = section.number_or("churn", kEitherWay, texture.churn);
 }
 
 const Texture* named(const std::vector<Texture>& textures, const std::string& name) {

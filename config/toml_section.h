@@ -21,10 +21,8 @@ struct NumberRule {
     std::string_view expected;
     bool (*holds)(double);
 };
-inline constexpr NumberRule kAnyNumber{"a number", [](double) { return true; }};
 inline constexpr NumberRule kFraction{"a number in 0..1", [](double x) { return x >= 0.0 && x <= 1.0; }};
 inline constexpr NumberRule kPositive{"a number above 0", [](double x) { return x > 0.0; }};
-inline constexpr NumberRule kNotNegative{"a number of at least 0", [](double x) { return x >= 0.0; }};
 
 /// Keys that a table may have.
 using KnownKeys = std::initializer_list<std::string_view>;

@@ -48,6 +48,12 @@ std::optional<Time> candump_time(std::string_view stamp) {
     return std::nullopt;
 }
 
+/// A length code above 8, as the bus had it: the frame has 8 bytes all the same.
+bool is_raw_length(std::string_view text) {
+    return text.size() == 2 && text[0] == '_' &&
+           read_number<std::uint8_t>(text.substr(1), 16).value_or(0) > kCanDataSize;
+}
+
 std::optional<CanFrame> candump_frame(std::string_view text) {
     const auto hash = text.find('#');
     if (hash != kStandardDigits && hash != kExtendedDigits) return std::nullopt;
@@ -63,6 +69,7 @@ std::optional<CanFrame> candump_frame(std::string_view text) {
         return frame;
     }
     while (!data.empty()) {
+        if (frame.size == kCanDataSize && is_raw_length(data)) break;
         if (data.front() == '.') data.remove_prefix(1);
         const auto byte = read_number<std::uint8_t>(data.substr(0, 2), 16);
         if (!byte || data.size() < 2 || frame.size == kCanDataSize) return std::nullopt;

@@ -1,14 +1,49 @@
 #include "host_link/internet_address.h"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 namespace quadrig::host {
+
+namespace {
+
+/// Empty where the name has no address of that family: `error` is getaddrinfo's.
+std::string numeric_address(const std::string& name, int family, int& error) {
+    addrinfo wanted{};
+    wanted.ai_family = family;
+    wanted.ai_socktype = SOCK_STREAM;  // each address once
+    addrinfo* list = nullptr;
+    error = getaddrinfo(name.c_str(), nullptr, &wanted, &list);
+    if (error != 0) return {};
+    std::array<char, NI_MAXHOST> text{};
+    error = getnameinfo(list->ai_addr, list->ai_addrlen, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST);
+    freeaddrinfo(list);
+    return text.data();
+}
+
+}  // namespace
+
+LinkUrl looked_up(LinkUrl url) {
+    if (url.protocol == Protocol::canaerospace || ip_address(url.address)) return url;
+    const auto& reply = url.trust.reply;
+    std::string address;
+    int error = 0;
+    for (const int family : {AF_INET, AF_INET6})
+        if (address.empty() && (!reply || reply->address.v6 == (family == AF_INET6)))
+            address = numeric_address(url.address, family, error);
+    if (address.empty())
+        throw LinkUrlError("link '" + url.text + "': host '" + url.address + "': " + gai_strerror(error));
+    url.address = address;
+    return url;
+}
 
 socklen_t socket_address(const LinkUrl& url, sockaddr_storage& storage) {
     const auto address = ip_address(url.address);

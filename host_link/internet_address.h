@@ -10,6 +10,10 @@
 
 namespace quadrig::host {
 
+/// A link whose host is named, with the address that the system finds for it: of IPv4, where there is none of IPv6; of
+/// its reply's family, if it has one. Waits for the name servers. Throws LinkUrlError with the resolver's reason.
+LinkUrl looked_up(LinkUrl url);
+
 /// A link's numeric address and port for bind and connect; returns its size. Throws std::runtime_error with the URL
 /// where the address is not numeric.
 socklen_t socket_address(const LinkUrl& url, sockaddr_storage& storage);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +40,17 @@ bool is_numeric_address(int family, const std::string& address) {
     return inet_pton(family, address.c_str(), binary.data()) == 1;
 }
 
+/// As hosts are called (RFC 1123, and the underscores that there are all the same). What ends in a number is an IPv4
+/// address, if a bad one.
+bool is_host_name(std::string_view text) {
+    constexpr std::size_t kLongestName = 253;
+    constexpr std::string_view kDigits = "0123456789";
+    constexpr std::string_view kKnown = "-_.0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const std::string_view last = text.substr(text.rfind('.') + 1);
+    return text.size() <= kLongestName && text.find_first_not_of(kKnown) == std::string_view::npos &&
+           last.find_first_not_of(kDigits) != std::string_view::npos;
+}
+
 std::string address_of(const LinkUrl& url, std::string_view text) {
     if (text.empty() || text == "localhost") return std::string(kLoopback);
     if (text.front() == '[') {
@@ -61,21 +73,24 @@ void set_interface(LinkUrl& url, std::string_view name) {
     url.address = name;
 }
 
-std::pair<std::string, std::uint16_t> endpoint_of(const LinkUrl& url, std::string_view text) {
+/// Host, as it stands there, and port.
+std::pair<std::string_view, std::uint16_t> endpoint_of(const LinkUrl& url, std::string_view text) {
     const auto colon = text.rfind(':');
     const auto bracket = text.rfind(']');
     if (colon == std::string_view::npos || (bracket != std::string_view::npos && colon < bracket))
         fail(url, "no port; give ADDRESS:PORT, for example 127.0.0.1:8004");
     const auto port = read_number<std::uint16_t>(text.substr(colon + 1));
-    std::string address = address_of(url, text.substr(0, colon));
     if (!port) fail(url, "bad port '" + std::string(text.substr(colon + 1)) + "'");
-    return {std::move(address), *port};
+    return {text.substr(0, colon), *port};
 }
 
 void set_endpoint(LinkUrl& url, std::string_view endpoint) {
     url.live = true;
     if (url.protocol == Protocol::canaerospace) return set_interface(url, endpoint);
-    std::tie(url.address, url.port) = endpoint_of(url, endpoint);
+    const auto [host, port] = endpoint_of(url, endpoint);
+    const bool named = is_host_name(host) && host != "localhost";
+    url.address = named ? std::string(host) : address_of(url, host);
+    url.port = port;
 }
 
 cigi::Version version_of(const LinkUrl& url, std::string_view value) {
@@ -169,10 +184,10 @@ AddressRange range_of(const LinkUrl& url, std::string_view text) {
 }
 
 Endpoint reply_of(const LinkUrl& url, std::string_view value) {
-    const auto [address, port] = endpoint_of(url, value);
-    const Endpoint reply{ip_address(address).value(), port};
+    const auto [host, port] = endpoint_of(url, value);
+    const Endpoint reply{ip_address(address_of(url, host)).value(), port};
     if (port == 0) fail(url, "reply needs a port");
-    if (reply.address.v6 != ip_address(url.address)->v6)
+    if (const auto own = ip_address(url.address); own && own->v6 != reply.address.v6)
         fail(url, "reply and the link itself are both IPv4 or both IPv6");
     return reply;
 }
@@ -216,9 +231,10 @@ void set_option(LinkUrl& url, std::string_view key, std::string_view value) {
         return;
     }
     if (key != "altitude_offset") fail(url, "unknown option '" + std::string(key) + "'");
+    constexpr double kMost = 1e6;
     url.altitude_offset = read_number<double>(value);
-    if (!url.altitude_offset || !std::isfinite(*url.altitude_offset))
-        fail(url, "altitude_offset is a number of metres");
+    if (!url.altitude_offset || !(std::abs(*url.altitude_offset) <= kMost))
+        fail(url, "altitude_offset is a number of metres from -1e6 to 1e6, not '" + std::string(value) + "'");
 }
 
 }  // namespace
@@ -247,9 +263,11 @@ LinkUrl parse_link_url(std::string_view text) {
     } else if (!endpoint.empty()) {
         fail(url, "expected '//' after '" + std::string(scheme) + ":'");
     }
+    std::set<std::string_view> keys;
     while (!query.empty()) {
         const auto [option, more] = split(query, '&');
         const auto [key, value] = split(option, '=');
+        if (!keys.insert(key).second) fail(url, "option '" + std::string(key) + "' is given twice");
         set_option(url, key, value);
         query = more;
     }

@@ -33,7 +33,8 @@ struct LinkUrl {
     Protocol protocol = Protocol::cigi;
     std::string text;     ///< as given
     bool live = false;    ///< says where to listen; a bare protocol names a recording's
-    std::string address;  ///< numeric, without brackets, 127.0.0.1 where none was given; CAN: the interface
+    std::string address;  ///< numeric, without brackets, 127.0.0.1 where none was given; or a host's name, which
+                          ///< looked_up (internet_address.h) makes numeric; CAN: the interface
     std::optional<std::uint16_t> port;          ///< 0: any free port; absent for CAN and a bare protocol
     bool tcp = false;                           ///< FlightGear over TCP: ?transport=tcp
     std::optional<cigi::Version> cigi_version;  ///< ?version=
@@ -48,8 +49,8 @@ struct LinkUrl {
     TrustSettings trust;                        ///< ?allow=, ?host=, ?reply=, ?reply_rate=, ?silence=
 };
 
-/// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6] or localhost.
-/// or can://INTERFACE[?…]. Keys: altitude_offset, silence (milliseconds, 100 to 3,600,000); cigi: version (3, 3.0
+/// Reads SCHEME: or SCHEME://[ADDRESS]:PORT[?KEY=VALUE[&KEY=VALUE…]]. ADDRESS is IPv4, [IPv6], localhost or a host's
+/// name, or can://INTERFACE[?…]. Keys: altitude_offset, silence (milliseconds, 100 to 3,600,000); cigi: version (3, 3.0
 /// to 3.3, 4, 4.0), ownship, view, database (1 to 127), operation (asynchronous or synchronous); can: position (gps,
 /// ins, auxiliary), commit (an identifier, 0 to 2047), channel (0 to 255), timeout (milliseconds, 1 to 60000), node (1
 /// to 255). Of live links: allow (ADDRESS[/BITS], with commas; not can), host (first or newest; cigi and fdm), reply

@@ -98,7 +98,8 @@ Time arrival_time(msghdr& header, Time realtime, Time monotonic) {
     return monotonic;
 }
 
-std::unique_ptr<LiveLink> open_link(const LinkUrl& url) {
+std::unique_ptr<LiveLink> open_link(const LinkUrl& given) {
+    const LinkUrl url = looked_up(given);
     if (url.protocol == Protocol::canaerospace) return std::make_unique<CanLink>(url);
     if (url.protocol == Protocol::modbus) return std::make_unique<ModbusLink>(url);
     if (url.tcp) return std::make_unique<FdmTcpLink>(url);

@@ -142,6 +142,6 @@ Time arrival_time(msghdr& header, Time realtime, Time monotonic);
 
 /// The link that a live URL names; from here on the kernel queues what hosts send. Throws std::runtime_error with the
 /// URL and the system's reason.
-std::unique_ptr<LiveLink> open_link(const LinkUrl& url);
+std::unique_ptr<LiveLink> open_link(const LinkUrl& given);
 
 }  // namespace quadrig::host

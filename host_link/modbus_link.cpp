@@ -113,6 +113,8 @@ void ModbusLink::hear_client(Client& client) {
 
 bool ModbusLink::answer(Client& client, std::span<const std::byte> frame) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(frame.data());
+    // An exception response: its own exception's function would wrap round to that of a sound answer.
+    if (bytes[modbus::kHeaderSize] >= 0x80) return false;
     const auto read = modbus::read_request(frame);
     modbus_set_socket(context_, client.socket);
     int sent = 0;

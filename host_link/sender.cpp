@@ -126,7 +126,8 @@ class ModbusSender final : public Sender {
 
 }  // namespace
 
-std::unique_ptr<Sender> open_sender(const LinkUrl& url) {
+std::unique_ptr<Sender> open_sender(const LinkUrl& given) {
+    const LinkUrl url = looked_up(given);
     switch (url.protocol) {
         case Protocol::canaerospace:
             return std::make_unique<CanSender>(url);

@@ -21,8 +21,8 @@ class Sender {
     virtual bool send(std::span<const std::byte> bytes, std::uint32_t source) = 0;
 };
 
-/// To where `url` says, which is a live one with a port. Throws std::runtime_error with the URL and the system's
+/// To where `given` says, which is a live one with a port. Throws std::runtime_error with the URL and the system's
 /// reason.
-std::unique_ptr<Sender> open_sender(const LinkUrl& url);
+std::unique_ptr<Sender> open_sender(const LinkUrl& given);
 
 }  // namespace quadrig::host

@@ -7,6 +7,10 @@
 
 namespace quadrig {
 
+/// Where outlines have the near plane: behind k_near by more than rounding, so that nothing shows of a surface that
+/// lies at k_near.
+inline constexpr double kNearPlane = kNearDepth * (1.0 + 1e-12);
+
 /// Holds all of a solid that lies in front of the near plane. Image-plane units (distance 1) and metres along the look
 /// direction; a solid that reaches behind the near plane, or without end, may be anywhere on the image.
 struct ImageBounds {
@@ -14,7 +18,7 @@ struct ImageBounds {
     double z_from = -std::numeric_limits<double>::infinity(), z_to = std::numeric_limits<double>::infinity();
     double nearest = -std::numeric_limits<double>::infinity(), farthest = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool in_front() const { return nearest > kNearDepth; }  ///< all of it
+    [[nodiscard]] bool in_front() const { return nearest > kNearPlane; }  ///< all of it
     /// 1/k is nowhere greater.
     [[nodiscard]] double near_u() const { return 1.0 / (in_front() ? nearest : kNearDepth); }
     [[nodiscard]] bool behind() const { return !(farthest > kNearDepth); }  ///< all of it: nothing is seen

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ig_core/geometry/quadric_line.h"
+#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/textbook_forms.h"
 
 namespace quadrig {
@@ -91,7 +92,7 @@ void look_at(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_fr
                               solid.plane_at(plane, eye), plane.surface == 0 ? kNoSurface : plane.surface,
                               plane.surface != 0, to_float(-plane.normal)});
     }
-    if (near_plane) out.planes.push_back({{0, 1, 0}, out.anchor.y - kNearDepth, -kNearDepth, kNearSurface, true});
+    if (near_plane) out.planes.push_back({{0, 1, 0}, out.anchor.y - kNearPlane, -kNearPlane, kNearSurface, true});
     if (infinity) out.planes.push_back({{0, 0, 0}, 1.0, 1.0, kNoSurface, true});
     if (set_up == SetUp::textbook) set_textbook_forms<double>(out);
     if (set_up == SetUp::textbook_single) set_textbook_forms<float>(out);

@@ -75,7 +75,10 @@ class Follower {
     [[nodiscard]] bool needed(const glm::dvec2& a, const glm::dvec2& p, const glm::dvec2& b) const {
         const int points = is_point(a) + is_point(p) + is_point(b);
         if (points < 3) return points > 0 && b.y - a.y > kClosest * tolerance_;
-        const double left = std::min({a.x, p.x, b.x}), right = std::max({a.x, p.x, b.x});
+        // An arc that bends one way strays beyond a, p and b by less than four times what p strays from their chord:
+        // two times if z were halved by p, more near an end.
+        const double astray = 4.0 * std::abs(p.x - std::lerp(a.x, b.x, (p.y - a.y) / (b.y - a.y)));
+        const double left = std::min({a.x, p.x, b.x}) - astray, right = std::max({a.x, p.x, b.x}) + astray;
         return left <= window_.x_to && right >= window_.x_from &&
                2.0 * distance_from_chord(p, a, b) > tolerance_;  // not all stray most in the middle
     }

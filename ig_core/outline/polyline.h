@@ -19,9 +19,9 @@ struct ImageWindow {
     [[nodiscard]] double height() const { return z_to - z_from; }
 };
 
-/// Follows the curve x(z) upwards from z_from to z_to. Inside the window no chord strays from it by more than
-/// `tolerance`, also where x turns vertical at an end as a conic does at its extrema. Where x(z) is NaN or infinite
-/// there is no curve: the pieces around such a gap are told apart.
+/// Follows the curve x(z), which bends one way as a conic's does between its extrema, upwards from z_from to z_to.
+/// Inside the window no chord strays from it by more than `tolerance`, also where x turns vertical at an end as a conic
+/// does at its extrema. Where x(z) is NaN or infinite there is no curve: the pieces around such a gap are told apart.
 std::vector<Polyline> follow(double z_from, double z_to, const std::function<double(double)>& x_at,
                              const ImageWindow& window, double tolerance);
 

@@ -86,6 +86,7 @@ TEST_CASE("Mistakes in an appliance file are told with file, line and key") {
         {"entity = [{ model = \"x-29\", place = { latitude = 91, longitude = 0, altitude = 0 } }]",
          "key 'entity[0].place.latitude'"},
         {"entity = [{ position = [0, 0, 0] }]", "key 'entity[0].model'"},
+        {"entity = [{ model = \"x-30\", type = 3 }]", "key 'entity[0].model': expected the name of a file in"},
     };
     for (const auto& [line, complaint] : cases) {
         const std::string file = scratch_file("appliance.toml", "# settings\n\n" + line + "\n[scenery]\n");

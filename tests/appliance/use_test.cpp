@@ -71,6 +71,19 @@ TEST_CASE("Every command that help names, and every option of it, is told in the
     }
 }
 
+TEST_CASE("Every file that the examples in help take from config is there") {
+    const std::regex file("config/[a-z0-9_./-]*[a-z0-9]");
+    std::string help;
+    for (const char* command : {"render", "replay", "run", "send", "bench", "check", "outline", "accuracy", "generate"})
+        help += quadrig_program({command, "--help"}).out;
+    int named = 0;
+    for (std::sregex_iterator at(help.begin(), help.end(), file), end; at != end; ++at, ++named) {
+        INFO(at->str());
+        CHECK(std::filesystem::exists(shipped(at->str())));
+    }
+    CHECK(named > 15);
+}
+
 TEST_CASE("The version is told on standard output") {
     const Outcome version = quadrig_program({"--version"});
     CHECK(version.status == 0);
@@ -83,6 +96,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
     const std::string cameras = scratch_file("cameras.json", R"([{"eye":[0,0,8],"attitude":[0,0,0],"fov":60}])");
     const std::string picture = scratch_directory() / "never.png";
     const Arguments render{"render", scene, "-o", picture};
+    const std::string nobody(64, 'x');  // longer than names are: no name server is asked
     struct Case {
         Arguments arguments;
         std::string reason;
@@ -105,6 +119,7 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {render + kStill + Arguments{"--threads", "0"}, "--threads"},
         {render + kStill + Arguments{"--threads", "two"}, "two"},
         {render + kStill + Arguments{"--time", "nan"}, "nan"},
+        {render + kStill + Arguments{"--time", "1e10"}, "expected seconds in -1e9..1e9"},
         {render + kStill + Arguments{"--time"}, "--time"},
         {render + Arguments{"--eye", "0,0", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"}, "0,0"},
         {render + Arguments{"--eye", "0,0,8,1", "--attitude", "0,0,0", "--size", "64x48", "--fov", "60"}, "0,0,8,1"},
@@ -116,6 +131,8 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48x", "--fov", "60"}, "64x48x"},
         {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "180"}, "180"},
         {render + Arguments{"--eye", "0,0,8", "--attitude", "0,0,0", "--size", "64x48", "--fov", "0"}, "below 180"},
+        {{"send", flight, "--to", "cigi://127.0.0.1:0"}, "nobody listens at port 0"},
+        {{"send", flight, "--to", "cigi://127.0.0.1:1", "--speed", "1e-300"}, "expected a factor in 1e-3..1e6"},
         {{"replay", flight}, "--scene"},
         {{"replay", "--scene", scene}, "recording"},
         {{"replay", flight, "--scene", scene, "--link", "can://vcan0"}, "without an address"},
@@ -133,7 +150,8 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene}, "--link"},
         {{"run", "--scene", scene, "--link", "fdm:"}, "ADDRESS:PORT"},
         {{"run", "--scene", scene, "--link", "fdm://localhost:99999"}, "99999"},
-        {{"run", "--scene", scene, "--link", "fdm://far.example:5500"}, "far.example"},
+        {{"run", "--scene", scene, "--link", "fdm://127.0.0.300:5500"}, "bad address '127.0.0.300'"},
+        {{"run", "--scene", scene, "--link", "fdm://" + nobody + ":5500"}, "host '" + nobody + "'"},
         {{"run", "--scene", scene, "--link", "cigi://127.0.0.1:0?version=5"}, "version"},
         {{"run", "--scene", scene, "--link", "modbus://127.0.0.1:0?word_order=up"}, "word_order"},
         {{"bench", scene}, "--path"},
@@ -187,6 +205,7 @@ TEST_CASE("What cannot be done is exit status 1, with the reason on standard err
         {{"check", bad_settings}, bad_settings + ":1: key 'size[0]'"},
         {{"check", bad_cameras}, "[0].eye"},
         {{"check", empty}, empty},
+        {{"gallery", "-o", scratch_directory(), "--scenes", nowhere}, nowhere + ": cannot be read"},
     };
     for (const Case& impossible : cases) {
         INFO("quadrig" << joined(impossible.arguments));
@@ -196,6 +215,15 @@ TEST_CASE("What cannot be done is exit status 1, with the reason on standard err
         CHECK(outcome.out.empty());
         CHECK_THAT(outcome.err, Contains(impossible.reason));
     }
+}
+
+TEST_CASE("A file larger than the system allows is a failure, with the reason, and is not left behind") {
+    const std::string out = scratch_directory(), scene = scratch_file("scene.toml", small_scene());
+    const std::string draw = "ulimit -f 1; " + std::string(QUADRIG_PROGRAM) + " render '" + scene + "'" +
+                             joined(kStill) + " --depth '" + out + "/k.npy' 2>'" + out + "/err'";
+    CHECK(WEXITSTATUS(std::system(draw.c_str())) == 1);
+    CHECK_THAT(text_of(out + "/err"), Contains("k.npy: cannot be written: File too large"));
+    CHECK_FALSE(std::filesystem::exists(out + "/k.npy"));
 }
 
 TEST_CASE("Standard output that cannot be written to is a failure") {

@@ -109,6 +109,14 @@ TEST_CASE("What is no CANaerospace message is refused by its reason") {
     CHECK(reason(frame_of("00FF0141#0102000742B40000")) == "taken");
 }
 
+TEST_CASE("A length code above 8 behind the data is the frame of eight bytes that it belongs to") {
+    for (const char code : std::string("9ABCDEFaf"))
+        CHECK(frame_of(std::string("141#0102000742B40000_") + code) == frame_of("141#0102000742B40000"));
+    for (const char* line : {"141#0102000742B40000_8", "141#0102000742B40000_", "141#0102000742B40000_99",
+                             "141#0102000742B400_9", "141#0102000742B4000000"})
+        CHECK_FALSE(read_candump_line("(1.000000) can0 " + std::string(line)));
+}
+
 TEST_CASE("Any frame survives the record and the log line, and tshark reads the log alike") {
     const std::uint64_t seed = std::random_device{}();
     INFO("seed " << seed);

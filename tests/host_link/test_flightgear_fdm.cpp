@@ -5,6 +5,7 @@
 #include "host_link/fdm_stream.h"
 #include "host_link/fdm_tcp_link.h"
 #include "host_link/flightgear_fdm.h"
+#include "host_link/internet_address.h"
 #include "host_link/sender.h"
 #include "support.h"
 
@@ -175,4 +176,21 @@ TEST_CASE("Over TCP one host at a time is heard, may come back, and others are l
         open_sender(parse_link_url("fdm://127.0.0.1:" + std::to_string(closed.port()) + "?transport=tcp"));
     for (int i = 0; i < 5000 && closed.statistics().rejected_in_all() == 0; ++i) std::this_thread::sleep_for(1ms);
     CHECK(closed.statistics().rejected_for(Reject::not_allowed) == 1);
+}
+
+TEST_CASE("A host's name is looked up when its link is opened, at either end, in the family of its reply") {
+    using namespace std::chrono_literals;
+    // No name server need know this one: the system's table of hosts does, in any case.
+    const auto link = open_link(parse_link_url("fdm://LocalHost:0"));
+    link->start(session_options(link->url(), {}));
+    const auto host = open_sender(parse_link_url("fdm://LOCALHOST:" + std::to_string(link->port())));
+    host->send(encoded({.latitude = 0.8, .altitude = 700.0}), 0);
+    for (int i = 0; i < 5000 && link->statistics().frames == 0; ++i) std::this_thread::sleep_for(1ms);
+    CHECK(link->statistics().frames == 1);
+    CHECK(link->url().text == "fdm://LocalHost:0");
+    CHECK(looked_up(parse_link_url("cigi://LocalHost:0?reply=127.0.0.1:9")).address == "127.0.0.1");
+
+    // Longer than a label may be: no name server is asked.
+    const std::string nobody(64, 'x');
+    CHECK_THROWS_WITH(open_link(parse_link_url("cigi://" + nobody + ":1")), Catch::Contains("host '" + nobody + "': "));
 }

@@ -35,6 +35,17 @@ TEST_CASE("Loopback is the default address") {
     CHECK(parse_link_url("cigi://localhost:8004").address == "127.0.0.1");
 }
 
+TEST_CASE("A host may be named; what ends in a number is an address, and whom to trust is told by address") {
+    CHECK(parse_link_url("cigi://sim_2.hangar-3.example:8004").address == "sim_2.hangar-3.example");
+    CHECK(parse_link_url("modbus://3com:1502").address == "3com");
+    using Catch::Contains;
+    for (const char* link :
+         {"cigi://10.1:80", "cigi://sim.7:80", "cigi://sim.:80", "cigi://a b:80", "cigi://s\xC3\xA4:80"})
+        CHECK_THAT(error_of(link), Contains("bad address"));
+    CHECK_THAT(error_of("cigi://sim:80?reply=sim:81"), Contains("bad address 'sim'"));
+    CHECK(parse_link_url("cigi://sim:80?reply=[::1]:81").trust.reply->port == 81);
+}
+
 TEST_CASE("A bare protocol names a recording's") {
     CHECK(parse_link_url("fdm:").protocol == Protocol::flightgear_fdm);
     CHECK_FALSE(parse_link_url("cigi:").port.has_value());
@@ -109,6 +120,8 @@ TEST_CASE("What a link gets wrong is said with the link") {
     CHECK_THAT(error_of("cigi://127.0.0.1:80?version=5"), Contains("unknown CIGI version"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?ownship=-1"), Contains("ownship"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=nan"), Contains("metres"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?altitude_offset=1.1e6"), Contains("metres from -1e6 to 1e6"));
+    CHECK_THAT(error_of("cigi://127.0.0.1:80?view=1&ownship=2&view=1"), Contains("'view' is given twice"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?version=3.3"), Contains("unknown option"));
     CHECK_THAT(error_of("fdm://127.0.0.1:80?transport=sctp"), Contains("udp or tcp"));
     CHECK_THAT(error_of("cigi://127.0.0.1:80?transport=tcp"), Contains("unknown option"));

@@ -360,6 +360,14 @@ TEST_CASE("Slow, broken, silent and deaf clients do not hold a host up") {
     CHECK(live.state.pose->position.latitude.value == 47.26);
 }
 
+TEST_CASE("An exception response sent to the link is counted and not answered, and ends the connection") {
+    Live live;
+    const Client confused(live.link.port()), host(live.link.port());
+    CHECK(confused.ask(from_hex("000100000003018301")).empty());
+    CHECK(host.ask(pose_frame(1)).size() == 12);
+    CHECK(live.link.statistics().rejected_for(Reject::bad_request) == 1);
+}
+
 TEST_CASE("A peer that a Modbus link is not told to hear finds its connection closed, and moves nothing") {
     Live closed("?allow=10.8.0.0/13,192.0.2.10"), open("?allow=127.0.0.0/8");
     Client stranger(closed.link.port()), host(open.link.port());

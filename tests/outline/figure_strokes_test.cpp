@@ -141,3 +141,21 @@ TEST_CASE("every point of a curve or line in the window and before the eye is dr
     CHECK(missing == 0);
     CHECK(points > 10000);
 }
+
+TEST_CASE("a curve that comes into the window for a short while is followed there") {
+    CAPTURE(seed());
+    const ImageWindow window{-1, 1, -1, 1};
+    for (int trial = 0; trial < trials(1000); ++trial) {
+        Randomness random(320'000 + trial);
+        const double side = random.chance(0.5) ? 1 : -1, bend = random.log_between(1, 1000);
+        const double reach = random.between(-0.9, 0.9), height = random.between(-0.9, 0.9);
+        const auto x_at = [&](double z) { return side * (reach - bend * (z - height) * (z - height)); };
+        const std::vector<Polyline> pieces = follow(-1, 1, x_at, window, kFigureTolerance);
+        const double half = std::sqrt((reach + 0.99) / bend);
+        for (const double part : {-1.0, -0.7, -0.3, 0.0, 0.2, 0.6, 0.9}) {
+            const double z = std::clamp(height + part * half, -1.0, 1.0);
+            CAPTURE(trial, bend, reach, height, z);
+            REQUIRE(distance_from({x_at(z), z}, pieces) < kFigureTolerance);
+        }
+    }
+}

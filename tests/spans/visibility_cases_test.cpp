@@ -142,6 +142,28 @@ TEST_CASE("solids entered nearer than 0.1 m are not drawn on that ray") {
     }
 }
 
+TEST_CASE("what begins exactly 0.1 m before the eye is not drawn, a nanometre further away it is") {
+    struct Case {
+        Object object;
+        glm::dvec3 eye, ahead;
+        double heading;
+    };
+    const Case cases[]{{box({-3, 0, -3}, {3, 4, 3}), {0, -0.1, 0}, {0, 1, 0}, 0},
+                       {box({0, -3, -3}, {4, 3, 3}), {-0.1, 0, 0}, {1, 0, 0}, 90},
+                       {box({-3, -4, -3}, {3, 0, 3}), {0, 0.1, 0}, {0, -1, 0}, 180},
+                       {box({-3, 0.1, -3}, {3, 4, 3}), {0, 0, 0}, {0, 1, 0}, 0},
+                       {ball({0, 5, 0}, 5), {0, -0.1, 0}, {0, 1, 0}, 0}};
+    for (const auto& [object, eye, ahead, heading] : cases) {
+        ImageGenerator generator(scene_of({object}));
+        const auto seen_from = [&, turn = heading](const glm::dvec3& from) {
+            return generator.ground_truth(look(from, {{turn}, {0}, {0}}, 1, 1, 60)).object_ids.front();
+        };
+        CAPTURE(eye.x, eye.y);
+        CHECK(seen_from(eye) == kSkyId);
+        CHECK(seen_from(eye - 1e-9 * ahead) == 0);
+    }
+}
+
 TEST_CASE("a row that only touches a solid and one of its faces shows nothing") {
     Object half;  // the row of y = 120 touches it at (80, 120, -10), in its face
     half.shape = Ellipsoid{{{80, 100, -10}}, {20, 20, 30}, {{180}, {0}, {90}}};

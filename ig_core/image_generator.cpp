@@ -62,7 +62,7 @@ struct ImageGenerator::Impl {
     Impl(Scene s, int threads) : scene(std::move(s)), workers(threads), row_workers(static_cast<std::size_t>(threads)) {
         solids.reserve(scene.objects.size());
         for (const Object& object : scene.objects) solids.push_back(make_solid(object));
-        for (const Solid& solid : solids) spheres.push_back({solid.anchor.metres, solid.radius});
+        for (std::size_t i = 0; i < solids.size(); ++i) set_extent(i);
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
             if (scene.objects[i].motion) moving.push_back({i, solids[i]});
         for (const Model& model : scene.models) {
@@ -70,9 +70,16 @@ struct ImageGenerator::Impl {
             for (const Object& object : model.objects) at_rest.push_back(make_solid(object));
         }
         paints = make_frame_paints(scene);
+        for (const FramePaint& paint : paints.objects) object_opaque.push_back(!paint.translucent);
         for (const FramePaint& deck : paints.decks) deck_opaque.push_back(!deck.translucent);
     }
 
+    /// Notes where a solid now is.
+    void set_extent(std::size_t solid) {
+        const std::size_t lanes = solid / SolidExtents::kSolids;
+        if (extents.size() <= lanes) extents.resize(lanes + 1);
+        extents[lanes].set(solid % SolidExtents::kSolids, solids[solid]);
+    }
     /// Puts what moves where it is: objects by scene time, models by the host.
     void move_objects(const Environment& environment);
 
@@ -92,7 +99,7 @@ struct ImageGenerator::Impl {
     std::vector<RowWorker> row_workers;
     std::vector<Solid> solids;  // of the scene's objects, then of the models that the host has placed; only ever grows
     std::size_t solid_count = 0;
-    std::vector<BoundingSphere> spheres;  // of the solids
+    std::vector<SolidExtents> extents;  // of the solids
     struct Moving {
         std::uint32_t object;
         Solid at_rest;
@@ -101,7 +108,7 @@ struct ImageGenerator::Impl {
     std::vector<std::uint32_t> moved;        // indices of solids that are not as they were in the last frame
     std::vector<std::vector<Solid>> models;  // at rest, in their own axes
     FramePaints paints;
-    std::vector<std::uint8_t> deck_opaque;
+    std::vector<std::uint8_t> object_opaque, deck_opaque;  // a byte each: paints are large
     PlaneSurfaces planes;
     ObjectsInView objects;
     StripIndex polygons_on_strips, lights_on_strips;
@@ -115,7 +122,7 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
     const auto put = [&](std::size_t at, const Solid& at_rest, const ScenePose& pose) {
         moved.push_back(static_cast<std::uint32_t>(at));
         move(at_rest, pose, solids[at]);
-        spheres[at] = {solids[at].anchor.metres, solids[at].radius};
+        set_extent(at);
     };
     for (const Moving& object : moving)
         put(object.object, object.at_rest, pose_at(scene.objects[object.object], environment.seconds));
@@ -124,11 +131,14 @@ void ImageGenerator::Impl::move_objects(const Environment& environment) {
         if (body.model >= models.size()) continue;
         for (std::size_t i = 0; i < models[body.model].size(); ++i, ++solid_count) {
             if (solids.size() <= solid_count)
-                solids.emplace_back(), spheres.emplace_back(), paints.objects.emplace_back();
+                solids.emplace_back(), paints.objects.emplace_back(), object_opaque.push_back(1);
             put(solid_count, models[body.model][i], body.pose);
             paints.objects[solid_count] = paints.models[body.model][i];
+            object_opaque[solid_count] = !paints.objects[solid_count].translucent;
         }
     }
+    for (std::size_t i = solid_count; i < solids.size(); ++i)  // placed before, but no more
+        extents[i / SolidExtents::kSolids].clear(i % SolidExtents::kSolids);
 }
 
 void ImageGenerator::Impl::look_at_decks(const View& view, const Environment& environment) {
@@ -174,15 +184,14 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
     const std::span<const std::uint32_t> on_strip = objects.on(strip);
     for (std::size_t i = 0; i < on_strip.size(); ++i) {
         const std::uint32_t place = on_strip[i];
-        // Objects come from all over the scene: what each is first asked is fetched some turns ahead.
+        // One in the order of depth is not the next in memory: where each is, is fetched some turns ahead.
         constexpr std::size_t kTurnsAhead = 6;
-        const std::uint32_t ahead = on_strip[std::min(i + kTurnsAhead, on_strip.size() - 1)];
-        fetch(objects.bounds(ahead)), fetch(paints.objects[objects.object(ahead)].translucent);
+        fetch(objects.bounds(on_strip[std::min(i + kTurnsAhead, on_strip.size() - 1)]));
         const ImageBounds& around = objects.bounds(place);
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
         const StripCover::Rows open = rows_within(rows, around) & worker.cover.open(columns, around.near_u());
         if (open == 0) continue;
-        const bool opaque = everything_opaque || !paints.objects[objects.object(place)].translucent;
+        const bool opaque = everything_opaque || object_opaque[objects.object(place)] != 0;
         worker.object.start(objects.outline(place, worker.outline_time), place, opaque);
         const ObjectSpans::Rows may_show = worker.object.that_may_show();
         StripCover::Covered covered;
@@ -299,7 +308,7 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     quality.smallest_feature /= across;
     const auto start = Clock::now();
     g.move_objects(environment);
-    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, g.moved, view, quality, g.workers);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.extents, g.moved, view, quality, g.workers);
     const auto selected = Clock::now();
 
     move_textures(g.scene, view.eye, environment.seconds, quality, g.paints);
@@ -340,7 +349,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     quality.sub_scan_lines = 0;
     const ImagePlane& image = view.image;
     g.move_objects(environment);
-    g.objects.select(std::span(g.solids).first(g.solid_count), g.spheres, g.moved, view, quality, g.workers);
+    g.objects.select(std::span(g.solids).first(g.solid_count), g.extents, g.moved, view, quality, g.workers);
     const PlaneSurfaces planes{horizontal_plane(view, 0.0), g.scene.ground.has_value(), {}};
     GroundTruth truth;
     truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));

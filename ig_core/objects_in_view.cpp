@@ -6,17 +6,20 @@
 #include <functional>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "ig_core/geometry/fetch.h"
 
 namespace quadrig {
 namespace {
 
-constexpr int kSelectBlock = 512;
+/// A worker selects among so many objects at a time.
+constexpr std::size_t kBlock = 512;
+static_assert(kBlock % SolidExtents::kSolids == 0);
 
 }  // namespace
 
-void ObjectsInView::select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres,
+void ObjectsInView::select(std::span<const Solid> solids, std::span<const SolidExtents> extents,
                            std::span<const std::uint32_t> moved, const View& view, const Quality& quality,
                            Workers& workers) {
     const ImagePlane& image = view.image;
@@ -24,37 +27,31 @@ void ObjectsInView::select(std::span<const Solid> solids, std::span<const Boundi
     const Sight sight{view.eye,       view.eye_from_scene,
                       image,          {image.top, image.row_step / lines, image.height * lines},
                       quality.set_up, quality.smallest_feature * image.row_step};
-    const bool same_view = sight == sight_, same_solids = moved.empty() && solids.size() == may_be_seen_.size();
+    const bool same_view = sight == sight_, same_solids = moved.empty() && solids.size() == solids_.size();
     sight_ = sight;
     solids_ = solids;
     if (!same_view || !same_solids) {
-        find_objects(spheres, view, workers);
+        find_objects(extents, view, workers);
         sort_by_depth();
-        on_strips_.sort(strips_of(image), selected_.size(),
-                        [&](std::size_t place) { return strips_[front_to_back_[place]]; });
+        on_strips_.sort(strips_of(image), in_view_.size(), [&](std::size_t place) {
+            return std::pair<int, int>(in_view_[place].first_strip, in_view_[place].last_strip);
+        });
     }
     keep_outlines(moved, same_view);
 }
 
-void ObjectsInView::find_objects(std::span<const BoundingSphere> spheres, const View& view, Workers& workers) {
-    may_be_seen_.resize(solids_.size());
-    bounds_.resize(solids_.size());
-    strips_.resize(solids_.size());
-    const auto walls = walls_of(view);
+void ObjectsInView::find_objects(std::span<const SolidExtents> extents, const View& view, Workers& workers) {
+    const std::size_t blocks = (solids_.size() + kBlock - 1) / kBlock;
+    found_.resize(blocks * kBlock);
+    found_count_.resize(blocks);
     const auto task = [&](int block, int) {
-        const std::size_t begin = static_cast<std::size_t>(block) * kSelectBlock;
-        for (std::size_t i = begin; i < std::min(solids_.size(), begin + kSelectBlock); ++i) {
-            may_be_seen_[i] = spheres[i].reaches_into(walls);
-            if (may_be_seen_[i] == 0) continue;
-            bounds_[i] = image_bounds(solids_[i], view.eye, view.eye_from_scene);
-            may_be_seen_[i] = may_show_on(view.image, bounds_[i]);
-            strips_[i] = strips_between(view.image, bounds_[i].z_from, bounds_[i].z_to);
-        }
+        constexpr std::size_t kExtents = kBlock / SolidExtents::kSolids;
+        const auto b = static_cast<std::size_t>(block);
+        const auto of_block = extents.subspan(b * kExtents, std::min(kExtents, extents.size() - b * kExtents));
+        const std::size_t first = b * kBlock;
+        found_count_[b] = quadrig::select(of_block, static_cast<std::uint32_t>(first), view, &found_[first]);
     };
-    workers.run(static_cast<int>((solids_.size() + kSelectBlock - 1) / kSelectBlock), std::ref(task));
-    selected_.clear();
-    for (std::uint32_t i = 0; i < may_be_seen_.size(); ++i)
-        if (may_be_seen_[i] != 0) selected_.push_back(i);
+    workers.run(static_cast<int>(blocks), std::ref(task));
 }
 
 void ObjectsInView::keep_outlines(std::span<const std::uint32_t> moved, bool same_view) {
@@ -66,10 +63,13 @@ void ObjectsInView::keep_outlines(std::span<const std::uint32_t> moved, bool sam
     }
     for (const std::uint32_t object : moved)
         if (slots_[object] != kNoSlot) states_[slots_[object]] = OutlineState::none;
-    for (const std::uint32_t object : selected_) {
-        if (slots_[object] != kNoSlot) continue;
-        slots_[object] = static_cast<std::uint32_t>(slotted_.size());
-        slotted_.push_back(object);
+    for (InView& seen : in_view_) {
+        std::uint32_t& slot = slots_[seen.object];
+        if (slot == kNoSlot) {
+            slot = static_cast<std::uint32_t>(slotted_.size());
+            slotted_.push_back(seen.object);
+        }
+        seen.slot = slot;
     }
     states_.resize(slotted_.size(), OutlineState::none);
     if (outlines_.size() < slotted_.size()) outlines_.resize(slotted_.size());
@@ -79,16 +79,20 @@ void ObjectsInView::keep_outlines(std::span<const std::uint32_t> moved, bool sam
 
 void ObjectsInView::sort_by_depth() {
     // Roughly is enough, and counting by the leading bits of a float takes a tenth of a sort's time.
-    const auto bin_of = [&](std::uint32_t object) {
-        const auto nearest = static_cast<float>(std::max(bounds_[object].nearest, 0.0));
+    const auto bin_of = [&](const InView& seen) {
+        const auto nearest = static_cast<float>(std::max(seen.bounds.nearest, 0.0));
         return std::bit_cast<std::uint32_t>(nearest) >> 18;  // five bits of mantissa
+    };
+    const auto for_each_found = [&](auto&& look_at) {
+        for (std::size_t block = 0; block < found_count_.size(); ++block)
+            for (const InView& seen : std::span(found_).subspan(block * kBlock, found_count_[block])) look_at(seen);
     };
     constexpr auto kLastBin = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 18;
     depth_bins_.assign(kLastBin + 2, 0);
-    for (const std::uint32_t object : selected_) ++depth_bins_[bin_of(object) + 1];
+    for_each_found([&](const InView& seen) { ++depth_bins_[bin_of(seen) + 1]; });
     for (std::size_t bin = 1; bin < depth_bins_.size(); ++bin) depth_bins_[bin] += depth_bins_[bin - 1];
-    front_to_back_.resize(selected_.size());
-    for (const std::uint32_t object : selected_) front_to_back_[depth_bins_[bin_of(object)]++] = object;
+    in_view_.resize(depth_bins_.back());
+    for_each_found([&](const InView& seen) { in_view_[depth_bins_[bin_of(seen)]++] = seen; });
 }
 
 std::size_t ObjectsInView::outlines_made() const {
@@ -96,7 +100,7 @@ std::size_t ObjectsInView::outlines_made() const {
 }
 
 const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseconds& time) {
-    const std::uint32_t index = object(place), slot = slots_[index];
+    const std::uint32_t index = in_view_[place].object, slot = in_view_[place].slot;
     Outline& outline = outlines_[slot];
     const std::atomic_ref state(states_[slot]);
     OutlineState seen = state.load(std::memory_order_acquire);
@@ -106,7 +110,7 @@ const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseco
         state.compare_exchange_strong(seen, OutlineState::begun, std::memory_order_acquire)) {
         const auto start = std::chrono::steady_clock::now();
         const Sight& s = sight_;
-        make_outline(solids_[index], bounds_[index], index, s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
+        make_outline(solids_[index], in_view_[place].bounds, index, s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
         if (outline.zeta_to - outline.zeta_from < s.least_height) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
         state.store(OutlineState::made, std::memory_order_release);
         time += std::chrono::steady_clock::now() - start;

@@ -5,10 +5,8 @@
 #include <chrono>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "ig_core/outline/image_bounds.h"
 #include "ig_core/outline/outline.h"
 #include "ig_core/select.h"
 #include "ig_core/strip_index.h"
@@ -18,27 +16,27 @@ namespace quadrig {
 
 class ObjectsInView {
   public:
-    /// Begins a frame: selects among the solids by their spheres, then by their own bounds. The solids have to stay as
-    /// they are until the next frame begins; `moved` has the indices of those that are not as they were in the last
-    /// one, the new ones too. As long as eye, image and quality stay the same, the others keep their outlines.
-    void select(std::span<const Solid> solids, std::span<const BoundingSphere> spheres,
+    /// Begins a frame: selects among the solids by their extents. The solids have to stay as they are until the next
+    /// frame begins; `moved` has the indices of those that are not as they were in the last one, the new ones too. As
+    /// long as eye, image and quality stay the same, the others keep their outlines.
+    void select(std::span<const Solid> solids, std::span<const SolidExtents> extents,
                 std::span<const std::uint32_t> moved, const View& view, const Quality& quality, Workers& workers);
 
-    [[nodiscard]] std::size_t count() const { return front_to_back_.size(); }
+    [[nodiscard]] std::size_t count() const { return in_view_.size(); }
     /// How many outlines have been made since the frame began.
     [[nodiscard]] std::size_t outlines_made() const;
 
     /// Places, front to back, of the objects that may show on a strip.
     [[nodiscard]] std::span<const std::uint32_t> on(int strip) const { return on_strips_.on(strip); }
-    [[nodiscard]] std::uint32_t object(std::uint32_t place) const { return front_to_back_[place]; }
-    [[nodiscard]] const ImageBounds& bounds(std::uint32_t place) const { return bounds_[front_to_back_[place]]; }
+    [[nodiscard]] std::uint32_t object(std::uint32_t place) const { return in_view_[place].object; }
+    [[nodiscard]] const ImageBounds& bounds(std::uint32_t place) const { return in_view_[place].bounds; }
 
     /// The outline of the object at a place. Whichever worker asks first makes it, and adds to `time` how long that
     /// took.
     const Outline& outline(std::uint32_t place, std::chrono::nanoseconds& time);
 
   private:
-    void find_objects(std::span<const BoundingSphere> spheres, const View& view, Workers& workers);
+    void find_objects(std::span<const SolidExtents> extents, const View& view, Workers& workers);
     void sort_by_depth();
     /// Gives every object in view a slot, and empties the slots of what moved.
     void keep_outlines(std::span<const std::uint32_t> moved, bool same_view);
@@ -55,10 +53,10 @@ class ObjectsInView {
     };
 
     std::span<const Solid> solids_;
-    std::vector<std::uint8_t> may_be_seen_;    // by object
-    std::vector<ImageBounds> bounds_;          // of the objects that may be seen
-    std::vector<std::pair<int, int>> strips_;  // theirs too, first and last
-    std::vector<std::uint32_t> selected_, front_to_back_, depth_bins_;
+    std::vector<InView> found_;             // block by block, each with room for all its objects
+    std::vector<std::size_t> found_count_;  // by block
+    std::vector<std::uint32_t> depth_bins_;
+    std::vector<InView> in_view_;  // by place: front to back
     StripIndex on_strips_;
 
     enum class OutlineState : std::uint8_t { none, begun, made };

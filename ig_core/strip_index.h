@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,7 +21,7 @@ inline int strips_of(const ImagePlane& image) { return (image.height + kStripRow
 inline std::pair<int, int> strips_between(const ImagePlane& image, double z_from, double z_to) {
     if (!(z_from <= z_to && z_from <= image.top && z_to >= image.z(image.height))) return {1, 0};
     const auto strip = [&](double z) {
-        const double row = std::floor((image.top - z) / image.row_step);
+        const double row = (image.top - z) / image.row_step;
         return static_cast<int>(std::clamp(row, 0.0, image.height - 1.0)) / kStripRows;
     };
     return {strip(z_to), strip(z_from)};
@@ -33,21 +33,23 @@ class StripIndex {
     /// `strips_of(i)` is the first and the last strip of thing i; none where last < first.
     template <class StripsOf>
     void sort(int strips, std::size_t count, StripsOf&& strips_of) {
-        begin_.assign(static_cast<std::size_t>(strips) + 1, 0);
+        // No branch could foresee how many strips a thing is on. How many more things begin on a strip than ended on
+        // the one before; where last < first both cancel.
+        begin_.assign(static_cast<std::size_t>(strips) + 2, 0);
         for (std::size_t i = 0; i < count; ++i) {
             const auto [from, to] = strips_of(i);
-            for (int s = from; s <= to; ++s) ++begin_[static_cast<std::size_t>(s) + 1];
+            ++begin_[static_cast<std::size_t>(from)], --begin_[static_cast<std::size_t>(to) + 1];
         }
-        for (std::size_t s = 1; s < begin_.size(); ++s) begin_[s] += begin_[s - 1];
+        // From that, how many are on it, and where they end in the list.
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         things_.resize(begin_.back());
         for (std::size_t i = count; i-- > 0;) {
             const auto [from, to] = strips_of(i);
             // Filled from the back, so that begin_ ends up where each strip starts.
             for (int s = from; s <= to; ++s)
-                things_[--begin_[static_cast<std::size_t>(s) + 1]] = static_cast<std::uint32_t>(i);
+                things_[--begin_[static_cast<std::size_t>(s)]] = static_cast<std::uint32_t>(i);
         }
-        std::rotate(begin_.begin(), begin_.begin() + 1, begin_.end());
-        begin_.back() = static_cast<std::uint32_t>(things_.size());
     }
     [[nodiscard]] std::span<const std::uint32_t> on(int strip) const {
         const auto s = static_cast<std::size_t>(strip);

@@ -20,8 +20,7 @@ Sym3 extent_form(const Solid& solid, const glm::dmat3& scene_from_eye) {
 /// Tangents through the eye across one axis of the image: (centre - t depth)^2 = E_cc - 2 t E_cd + t^2 E_dd.
 std::pair<double, double> tangents(double centre, double depth, double cc, double cd, double dd) {
     const double a = depth * depth - dd, b = centre * depth - cd, c = centre * centre - cc;
-    constexpr double kRounding = 1e-14;  // of b^2 - a c, whose terms cancel for what is small and far away
-    const double root = std::sqrt(std::max(0.0, b * b - a * c) + kRounding * b * b);
+    const double root = std::sqrt(std::max(0.0, b * b - a * c) + kTangentRounding * b * b);
     return {(b - root) / a, (b + root) / a};
 }
 
@@ -36,11 +35,9 @@ ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::d
     if (!solid.ellipsoid && !std::isfinite(solid.radius)) return bounds;
     const glm::dvec3 centre = eye_from_scene * (solid.anchor.metres - eye.metres);
     Sym3 extent = extent_form(solid, glm::transpose(eye_from_scene));
-    // The anchor is known to a few units in its last place: (e + s)^2 <= (1 + d) e^2 + (1 + 1/d) s^2.
-    constexpr double kShare = 1e-8;
-    const double slack = 1e-15 * (glm::length(solid.anchor.metres) + glm::length(eye.metres));
-    extent = (1.0 + kShare) * extent;
-    const double more = slack * slack / kShare;
+    const double slack = kAnchorRounding * (glm::length(solid.anchor.metres) + glm::length(eye.metres));
+    extent = (1.0 + kAnchorShare) * extent;
+    const double more = slack * slack / kAnchorShare;
     extent.xx += more, extent.yy += more, extent.zz += more;
 
     const double reach = std::sqrt(extent.yy);

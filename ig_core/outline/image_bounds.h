@@ -24,6 +24,10 @@ struct ImageBounds {
     [[nodiscard]] bool behind() const { return !(farthest > kNearDepth); }  ///< all of it: nothing is seen
 };
 
+/// What bounds allow for: rounding of the tangents' b^2 - a c, whose terms cancel for what is small and far away; and
+/// an anchor known to a few units in its last place, by (e + s)^2 <= (1 + d) e^2 + (1 + 1/d) s^2.
+inline constexpr double kTangentRounding = 1e-14, kAnchorRounding = 1e-15, kAnchorShare = 1e-8;
+
 /// An ellipsoid is bounded by its own extent, everything else by its bounding sphere; errs on the side of more.
 ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene);
 

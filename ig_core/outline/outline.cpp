@@ -49,21 +49,30 @@ void find_bands(const RowGrid& rows, Outline& out) {
     // The picture's edges, not its outermost rows: a picture of one row has a height, too.
     const double z_high = rows.top - out.solid.z0, z_low = z_high - rows.count * rows.step;
     const double rows_per_unit = 1.0 / rows.step;
-    const auto holds_row = [&](double from, double to) {
+    struct Height {
+        double zeta, row;
+    };
+    const auto within = [&](double zeta) {
+        zeta = std::clamp(zeta, z_low, z_high);
+        return Height{zeta, (z_high - zeta) * rows_per_unit - 0.5};
+    };
+    const auto holds_row = [](const Height& from, const Height& to) {
         constexpr double kRounding = 1e-9;
-        const double from_row = (z_high - from) * rows_per_unit - 0.5, to_row = (z_high - to) * rows_per_unit - 0.5;
-        const int last_row = static_cast<int>(from_row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
-        return last_row >= to_row - kRounding;
+        const int last_row = static_cast<int>(from.row + 1.0 + kRounding) - 1;  // rounded down: -1/2 at the least
+        return last_row >= to.row - kRounding;
     };
     std::array<double, kMaxKeyPoints> memory;
     const std::span<const double> heights = sort_heights(out.key_points, memory);
+    if (heights.empty()) return;
     // No branch could foresee which bands hold rows: each is written down, and counted if it does.
     out.bands.resize(heights.size());
     std::size_t count = 0;
-    for (std::size_t i = 1; i < heights.size(); ++i) {
-        const double from = std::clamp(heights[i - 1], z_low, z_high), to = std::clamp(heights[i], z_low, z_high);
-        out.bands[count].zeta_from = from, out.bands[count].zeta_to = to;
-        count += static_cast<std::size_t>(to > from) & static_cast<std::size_t>(holds_row(from, to));
+    Height from = within(heights[0]);
+    for (const double height : heights.subspan(1)) {
+        const Height to = within(height);
+        out.bands[count].zeta_from = from.zeta, out.bands[count].zeta_to = to.zeta;
+        count += static_cast<std::size_t>(to.zeta > from.zeta) & static_cast<std::size_t>(holds_row(from, to));
+        from = to;
     }
     out.bands.resize(count);
 }
@@ -72,7 +81,7 @@ double typical_row(const ZBand& band) { return typical_between(band.zeta_from, b
 
 void set_changes(const RowOrder& order, ZBand& band, Outline& out) {
     band.first = static_cast<std::uint32_t>(out.changes.size());
-    for (const Change& change : order) out.changes.push_back(change);
+    out.changes.insert(out.changes.end(), order.begin(), order.end());
     band.count = static_cast<std::uint32_t>(out.changes.size()) - band.first;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <span>
 
 #include "ig_core/outline/image_bounds.h"
@@ -19,26 +18,6 @@ struct Wall {
 };
 /// What bounds a view: near plane and the four sides of the window.
 using ViewWalls = std::array<Wall, 5>;
-
-/// What holds eight solids, one a vector lane, apart from them: most objects of a large scene are never touched but by
-/// this. Scene axes, metres.
-struct alignas(64) SolidExtents {
-    static constexpr std::size_t kSolids = 8;
-    using Lanes = std::array<double, kSolids>;
-
-    std::array<Lanes, 3> anchor{};
-    /// Of a sphere about the anchor, may be infinite. A lane without a solid reaches nowhere, as does a solid that is a
-    /// point or nothing.
-    Lanes radius;
-    /// Of an ellipsoid: how far it reaches from its anchor along n, squared, is n'En. Other than 0 in `is_ellipsoid`.
-    std::array<Lanes, 6> extent{};
-    Lanes is_ellipsoid{};
-
-    static constexpr double kNowhere = -std::numeric_limits<double>::infinity();
-    SolidExtents() { radius.fill(kNowhere); }
-    void set(std::size_t lane, const Solid& solid);
-    void clear(std::size_t lane) { radius[lane] = kNowhere; }
-};
 
 /// An object in view; all of it in one line of the caches.
 struct alignas(64) InView {

@@ -1,51 +1,48 @@
 #include "ig_core/outline/image_bounds.h"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-#include <utility>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ig_core/outline/image_bounds.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#include "ig_core/outline/image_bounds-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace quadrig {
-namespace {
+namespace HWY_NAMESPACE {
 
-constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-
-/// How far a solid reaches from its anchor along n: sqrt(n'En), in eye axes.
-Sym3 extent_form(const Solid& solid, const glm::dmat3& scene_from_eye) {
-    if (solid.ellipsoid) return congruent((-solid.c / solid.determinant) * solid.adjugate, scene_from_eye);
-    const double square = solid.radius * solid.radius;
-    return {square, square, square, 0, 0, 0};
+ImageBounds FirstBounds(const SolidExtents& extents, const ScenePoint& eye, const glm::dmat3& eye_from_scene) {
+    BoundsLanes bounds;
+    find_bounds(extents, 0, eye, eye_from_scene, bounds);
+    return bounds.of(0);
 }
 
-/// Tangents through the eye across one axis of the image: (centre - t depth)^2 = E_cc - 2 t E_cd + t^2 E_dd.
-std::pair<double, double> tangents(double centre, double depth, double cc, double cd, double dd) {
-    const double a = depth * depth - dd, b = centre * depth - cd, c = centre * centre - cc;
-    const double root = std::sqrt(std::max(0.0, b * b - a * c) + kTangentRounding * b * b);
-    return {(b - root) / a, (b + root) / a};
-}
+}  // namespace HWY_NAMESPACE
+}  // namespace quadrig
+HWY_AFTER_NAMESPACE();
 
-}  // namespace
+#if HWY_ONCE
+namespace quadrig {
+
+HWY_EXPORT(FirstBounds);
+
+void SolidExtents::set(std::size_t lane, const Solid& solid) {
+    for (std::size_t i = 0; i < 3; ++i) anchor[i][lane] = solid.anchor.metres[static_cast<int>(i)];
+    const bool is_point = solid.ellipsoid && !(solid.c < 0.0);
+    radius[lane] = is_point ? kNowhere : solid.radius;
+    const Sym3 e = (-solid.c / solid.determinant) * solid.adjugate;
+    const std::array entries{e.xx, e.yy, e.zz, e.xy, e.xz, e.yz};
+    for (std::size_t i = 0; i < entries.size(); ++i) extent[i][lane] = entries[i];
+    is_ellipsoid[lane] = solid.ellipsoid ? 1.0 : 0.0;
+}
 
 ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene) {
-    ImageBounds bounds;
-    if (solid.ellipsoid && !(solid.c < 0.0)) {
-        bounds.farthest = -kNoEnd;  // a point, or nothing
-        return bounds;
-    }
-    if (!solid.ellipsoid && !std::isfinite(solid.radius)) return bounds;
-    const glm::dvec3 centre = eye_from_scene * (solid.anchor.metres - eye.metres);
-    Sym3 extent = extent_form(solid, glm::transpose(eye_from_scene));
-    const double slack = kAnchorRounding * (glm::length(solid.anchor.metres) + glm::length(eye.metres));
-    extent = (1.0 + kAnchorShare) * extent;
-    const double more = slack * slack / kAnchorShare;
-    extent.xx += more, extent.yy += more, extent.zz += more;
-
-    const double reach = std::sqrt(extent.yy);
-    bounds.nearest = centre.y - reach, bounds.farthest = centre.y + reach;
-    if (!bounds.in_front()) return bounds;
-    std::tie(bounds.x_from, bounds.x_to) = tangents(centre.x, centre.y, extent.xx, extent.xy, extent.yy);
-    std::tie(bounds.z_from, bounds.z_to) = tangents(centre.z, centre.y, extent.zz, extent.yz, extent.yy);
+    SolidExtents extents;
+    extents.set(0, solid);
+    ImageBounds bounds = HWY_DYNAMIC_DISPATCH(FirstBounds)(extents, eye, eye_from_scene);
+    if (extents.radius[0] == SolidExtents::kNowhere) bounds.farthest = SolidExtents::kNowhere;
     return bounds;
 }
 
 }  // namespace quadrig
+#endif

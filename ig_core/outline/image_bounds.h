@@ -1,6 +1,8 @@
 /// Where a solid can be on the image, and how deep: bounds that are known before any outline is made.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 
 #include "ig_core/scene/solid.h"
@@ -24,11 +26,27 @@ struct ImageBounds {
     [[nodiscard]] bool behind() const { return !(farthest > kNearDepth); }  ///< all of it: nothing is seen
 };
 
-/// What bounds allow for: rounding of the tangents' b^2 - a c, whose terms cancel for what is small and far away; and
-/// an anchor known to a few units in its last place, by (e + s)^2 <= (1 + d) e^2 + (1 + 1/d) s^2.
-inline constexpr double kTangentRounding = 1e-14, kAnchorRounding = 1e-15, kAnchorShare = 1e-8;
+/// What bounds of eight solids are made of, one a vector lane, apart from the solids: most objects of a large scene are
+/// never touched but by this. Scene axes, metres.
+struct alignas(64) SolidExtents {
+    static constexpr std::size_t kSolids = 8;
+    using Lanes = std::array<double, kSolids>;
 
-/// An ellipsoid is bounded by its own extent, everything else by its bounding sphere; errs on the side of more.
+    std::array<Lanes, 3> anchor{};
+    /// Of a sphere about the anchor, may be infinite. A lane without a solid reaches nowhere, as does a solid that is a
+    /// point or nothing.
+    Lanes radius;
+    /// Of an ellipsoid: how far it reaches from its anchor along n, squared, is n'En. Other than 0 in `is_ellipsoid`.
+    std::array<Lanes, 6> extent{};
+    Lanes is_ellipsoid{};
+
+    static constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+    SolidExtents() { radius.fill(kNowhere); }
+    void set(std::size_t lane, const Solid& solid);
+    void clear(std::size_t lane) { radius[lane] = kNowhere; }
+};
+
+/// Bounds of a single solid.
 ImageBounds image_bounds(const Solid& solid, const ScenePoint& eye, const glm::dmat3& eye_from_scene);
 
 }  // namespace quadrig

@@ -29,10 +29,10 @@ struct GalleryOptions {
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& directory) {
     std::error_code error;
-    if (std::filesystem::directory_iterator(directory, error); error)
-        throw std::runtime_error(directory.string() + ": cannot be read: " + error.message());
+    const std::filesystem::directory_iterator entries(directory, error);
+    if (error) throw std::runtime_error(directory.string() + ": cannot be read: " + error.message());
     std::vector<std::filesystem::path> scenes;
-    for (const auto& entry : std::filesystem::directory_iterator(directory))
+    for (const auto& entry : entries)
         if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
     std::sort(scenes.begin(), scenes.end());
     if (scenes.empty()) throw std::runtime_error(directory.string() + ": there are no scenes, *.toml, in it");

@@ -26,8 +26,9 @@ scheduler::FrameRate read_rate(const std::string& text);
 scheduler::Time read_duration(const std::string& text);
 /// A whole number of at least 1.
 std::uint64_t read_count(const std::string& text);
-/// A finite number.
+/// A factor in 1e-3..1e6.
 double read_speed(const std::string& text);
+/// Seconds in -1e9..1e9.
 double read_scene_time(const std::string& text);
 /// A step of the shipped quality ladder.
 config::QualityStep read_quality(const std::string& text);

@@ -16,6 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
+
 /// Whether spheres reach into a view; errs on the side of yes.
 HWY_INLINE Mask reach_into(const ViewWalls& walls, const Vector& centre, Number radius) {
     Mask reaching = radius == radius;

@@ -1,7 +1,6 @@
 #include "ig_core/shading/shade.h"
 
 #include <algorithm>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ig_core/shading/kernels.cpp"

@@ -12,7 +12,7 @@ std::vector<Quality> accuracy_settings() {
     for (const int lines : {0, 1, 4, 8}) add({.sub_scan_lines = lines});
     for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) add({.set_up = set_up});
     add({.distance = DistanceRule::interpolated});
-    for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library}) add({.sine = sine});
+    for (const SineMethod sine : {SineMethod::polynomial, SineMethod::table, SineMethod::library}) add({.sine = sine});
     for (const int terms : {1, 2}) add({.terms_left_out = terms});
     add({.smooth_stretches = false});
     for (const ShadingRate rate : {ShadingRate::half, ShadingRate::four}) add({.shading = rate});

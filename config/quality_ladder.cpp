@@ -17,8 +17,8 @@ constexpr std::array<std::pair<SetUp, std::string_view>, 3> kSetUps{
     {{SetUp::anchored, "anchored"}, {SetUp::textbook, "textbook"}, {SetUp::textbook_single, "textbook-single"}}};
 constexpr std::array<std::pair<DistanceRule, std::string_view>, 2> kDistanceRules{
     {{DistanceRule::exact, "exact"}, {DistanceRule::interpolated, "interpolated"}}};
-constexpr std::array<std::pair<SineMethod, std::string_view>, 4> kSines{{{SineMethod::polynomial, "polynomial"},
-                                                                         {SineMethod::parabola, "parabola"},
+constexpr std::array<std::pair<SineMethod, std::string_view>, 4> kSines{{{SineMethod::parabola, "parabola"},
+                                                                         {SineMethod::polynomial, "polynomial"},
                                                                          {SineMethod::table, "table"},
                                                                          {SineMethod::library, "library"}}};
 
@@ -33,10 +33,10 @@ std::string_view name_of(const Named& names, Value value) {
     return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == value; })->second;
 }
 
-template <class Named>
-auto named_or(const TomlSection& section, std::string_view key, const Named& names) {
+template <class Named, class Value>
+Value named_or(const TomlSection& section, std::string_view key, const Named& names, Value usual) {
     const auto text = section.optional_text(key);
-    if (!text) return names.front().first;
+    if (!text) return usual;
     std::string expected;
     for (const auto& [value, name] : names) {
         if (name == *text) return value;
@@ -75,12 +75,12 @@ QualityStep read_step(const TomlSection& section) {
     step.psnr = section.number("psnr", kPositive);
     Quality& q = step.quality;
     q.sub_scan_lines = static_cast<int>(section.number_or("sub_scan_lines", kSubScanLines, usual.sub_scan_lines));
-    q.set_up = named_or(section, "set_up", kSetUps);
-    q.distance = named_or(section, "distance", kDistanceRules);
-    q.sine = named_or(section, "sine", kSines);
+    q.set_up = named_or(section, "set_up", kSetUps, usual.set_up);
+    q.distance = named_or(section, "distance", kDistanceRules, usual.distance);
+    q.sine = named_or(section, "sine", kSines, usual.sine);
     q.terms_left_out = static_cast<int>(section.number_or("terms_left_out", kTermsLeftOut, usual.terms_left_out));
     q.smooth_stretches = section.flag_or("smooth_stretches", usual.smooth_stretches);
-    q.shading = named_or(section, "shading", kShadingRates);
+    q.shading = named_or(section, "shading", kShadingRates, usual.shading);
     q.smallest_feature = section.number_or("smallest_feature", kSmallestFeature, usual.smallest_feature);
     return step;
 }

@@ -22,8 +22,8 @@ enum class DistanceRule : std::uint8_t {
 
 /// How the texturing function's sines are evaluated; errors of one sine (shading/vector_math-inl.h).
 enum class SineMethod : std::uint8_t {
-    polynomial,  ///< a quadratic in a parabola, 1e-5
-    parabola,    ///< one multiplication less, 1e-3
+    parabola,    ///< a parabola times what is linear in it, 1e-3
+    polynomial,  ///< a parabola times what is quadratic in it, 1e-5
     table,       ///< the nearest of 1024 entries, 3.1e-3
     library      ///< Highway's own, 3e-7
 };
@@ -50,7 +50,7 @@ struct Quality {
         2;  ///< samples of visibility in z per pixel row: 1, 2, 4 or 8; 0 is none but the pixels' centres
     SetUp set_up = SetUp::anchored;
     DistanceRule distance = DistanceRule::exact;
-    SineMethod sine = SineMethod::polynomial;
+    SineMethod sine = SineMethod::parabola;
     int terms_left_out = 0;        ///< of every texture's sines the fastest, but never the last one; 0..7
     bool smooth_stretches = true;  ///< what changes slowly along a row is interpolated between samples
     ShadingRate shading = ShadingRate::one;

@@ -57,9 +57,9 @@ FramePaints make_frame_paints(const Scene& scene) {
         out.count = static_cast<int>(terms.size());
         out.vertical = static_cast<float>(scene.textures[i].vertical);
         for (std::size_t k = 0; k < terms.size(); ++k) {
-            const double root = std::sqrt(terms[k].coefficient / (2.0 * sum)), w = terms[k].frequency;
-            out.terms[k].root_amplitude = static_cast<float>(root);
-            out.terms[k].fade = static_cast<float>(root * w * w / 48.0);
+            const double amplitude = terms[k].coefficient / (2.0 * sum), w = terms[k].frequency;
+            out.terms[k].amplitude = static_cast<float>(amplitude);
+            out.terms[k].fade = static_cast<float>(amplitude * w * w / kFilteredAway);
             out.terms[k].turns_per_metre = static_cast<float>(w / (2.0 * std::numbers::pi));
         }
     }
@@ -92,7 +92,7 @@ void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, co
             FrameTexture::Term& out = paints.textures[i].terms[k];
             // That of a sine of amplitude 1 is 1/2.
             if (static_cast<int>(k) < paints.textures[i].count)
-                paints.textures[i].variance += 0.5F * std::pow(out.root_amplitude, 4.0F);
+                paints.textures[i].variance += 0.5F * out.amplitude * out.amplitude;
             out.along_x = turns(w * (eye.metres.x + texture.drift.x * seconds));
             out.along_y = turns(w * (eye.metres.y + texture.drift.y * seconds));
             out.half_x = turns(0.5 * w * eye.metres.x + p);

@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Strides of samples, columns.
 constexpr std::size_t kFineStride = 4, kCoarseStride = 16;
 /// Largest growth of a sine's argument between samples, rad rms. A cubic through four samples is then wrong by 3/128 of
-/// its fourth power, 1 % of that sine; of the slower ones far less.
-constexpr float kLargestPhaseStep = 0.8F;
+/// its fourth power, 5 % of that sine; of the slower ones far less.
+constexpr float kLargestPhaseStep = 1.2F;
 constexpr std::size_t kBlockIntervals = kMostSamples / kCoarseStride;
 /// Samples of the fine stride of a block and beside it.
 constexpr std::size_t kFineCount = kCoarseStride / kFineStride * (kBlockIntervals + 1);

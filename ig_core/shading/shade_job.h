@@ -10,19 +10,23 @@
 
 namespace quadrig {
 
+/// A sine whose argument grows by so much over a pixel, squared mean, rad^2, is filtered away: its mean over the pixel
+/// falls with that growth, for a box filter as 1 - x/24 to begin with, and ends near the sampling frequency, 6 rad.
+inline constexpr float kFilteredAway = 36.0F;
+
 /// A texture as one frame sees it. Phases are in turns and measured from the eye: the scene-sized part of w X + p is
 /// reduced in double, so that the float part stays small wherever the texture is not yet filtered away.
 struct FrameTexture {
     struct Term {
         float turns_per_metre;                           ///< w_i / 2 pi
-        float root_amplitude;                            ///< sqrt of the sine's amplitude in a factor, C_i / (2 sum C)
-        float fade;                                      ///< what of it a footprint of 1 m^2 takes away: w_i^2 / 48
+        float amplitude;                                 ///< of the sine in a factor, C_i / (2 sum C)
+        float fade;                                      ///< what of it a footprint of 1 m^2 takes away
         float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
     };
     std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
     int count = 0;
     float variance = 0;  ///< of either factor, unfiltered
-    SineMethod sine = SineMethod::polynomial;
+    SineMethod sine = SineMethod::parabola;
     float vertical = 0;  ///< u of Eq 15
 };
 

@@ -42,8 +42,7 @@ struct TextureSums {
 };
 
 /// Terms [first, last) of the texturing function (Eq 15) at `count` points, added to `sums`, which the first term
-/// begins. Each sine is faded as (1 - w^2 footprint / 48)^2, which follows the box filter's exp(-w^2 footprint / 24)
-/// and ends a little above the sampling frequency, where the term is dropped.
+/// begins. Each sine is faded as 1 - w^2 footprint / kFilteredAway.
 template <SineMethod kMethod, bool kVertical, bool kKept>
 HWY_NOINLINE void add_terms_by(const FrameTexture& texture, int first, int last, const TexturePoints& points,
                                std::size_t count, TextureSums& sums) {
@@ -62,12 +61,10 @@ HWY_NOINLINE void add_terms_by(const FrameTexture& texture, int first, int last,
         std::size_t terms = 0;
         for (int k = first; k < last; ++k, ++terms) {
             const FrameTexture::Term& term = texture.terms[static_cast<std::size_t>(k)];
-            const V full = hn::Set(d, term.root_amplitude), fade = hn::Set(d, term.fade);
-            const V keep_x = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, full));
-            const V keep_y = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, full));
-            if (hn::AllTrue(d, hn::Eq(hn::Max(keep_x, keep_y), zero))) break;
-            amplitude_x[terms] = hn::Mul(keep_x, keep_x);
-            amplitude_y[terms] = hn::Mul(keep_y, keep_y);
+            const V full = hn::Set(d, term.amplitude), fade = hn::Set(d, term.fade);
+            amplitude_x[terms] = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, full));
+            amplitude_y[terms] = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, full));
+            if (hn::AllTrue(d, hn::Eq(hn::Max(amplitude_x[terms], amplitude_y[terms]), zero))) break;
             const V w = hn::Set(d, term.turns_per_metre);
             V x = hn::MulAdd(w, px, hn::Set(d, term.along_x)), y = hn::MulAdd(w, py, hn::Set(d, term.along_y));
             x = across.add(hn::MulAdd(w, half_y, hn::Set(d, term.half_y)), x);

@@ -146,8 +146,8 @@ const bool kRegistered = [] {
             return benchmark::RegisterBenchmark((name + set).c_str(),
                                                 [=](benchmark::State& state) { function(state, target, more...); });
         };
-        add("texture/polynomial", texture_points, SineMethod::polynomial)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);
-        add("texture/parabola", texture_points, SineMethod::parabola)->ArgName("terms")->Arg(7);
+        add("texture/parabola", texture_points, SineMethod::parabola)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);
+        add("texture/polynomial", texture_points, SineMethod::polynomial)->ArgName("terms")->Arg(7);
         add("texture/table", texture_points, SineMethod::table)->ArgName("terms")->Arg(7);
         add("texture/library", texture_points, SineMethod::library)->ArgName("terms")->Arg(7);
         add("pixel/each", plane_pixels, false, kColumns)->ArgName("terms")->Arg(1)->Arg(3)->Arg(7);

@@ -95,7 +95,7 @@ TEST_CASE("a ladder's mistakes are refused with file, line, key and what was exp
     for (const auto& [what, by, complaint] : std::vector<Mistake>{
              {"sub_scan_lines = 0", "sub_scan_lines = 3",
               ":5: key 'quality[0].sub_scan_lines': expected 0, 1, 2, 4 or 8"},
-             {"\"table\"", "\"cosine\"", "key 'quality[0].sine': expected polynomial or parabola or table or library"},
+             {"\"table\"", "\"cosine\"", "key 'quality[0].sine': expected parabola or polynomial or table or library"},
              {"false", "0", "key 'quality[0].smooth_stretches': expected true or false"},
              {"\"half\"", "\"none\"", "key 'quality[0].shading': expected one or half or quarter or eighth or four"},
              {"1.5", "-1", "key 'quality[0].smallest_feature': expected pixels in 0..64"},
@@ -113,9 +113,9 @@ TEST_CASE("a ladder's mistakes are refused with file, line, key and what was exp
 TEST_CASE("a quality is told in words by what sets it apart") {
     CHECK(words_for({}) == "2 sub-scan lines");
     Quality quality;
-    quality.sub_scan_lines = 0, quality.sine = SineMethod::parabola, quality.terms_left_out = 1,
+    quality.sub_scan_lines = 0, quality.sine = SineMethod::polynomial, quality.terms_left_out = 1,
     quality.smallest_feature = 1.5;
-    CHECK(words_for(quality) == "no antialiasing, parabola sine, one sine fewer, nothing below 1.5 pixels");
+    CHECK(words_for(quality) == "no antialiasing, polynomial sine, one sine fewer, nothing below 1.5 pixels");
     CHECK(words_for({.shading = ShadingRate::quarter}) == "2 sub-scan lines, drawn half as fine");
     CHECK(words_for({.shading = ShadingRate::eighth}) ==
           "2 sub-scan lines, drawn half as fine, every second pixel shaded");

@@ -193,7 +193,7 @@ TEST_CASE("every quality gives the same bits for any number of threads") {
                                    {.smooth_stretches = false}};
     for (const ShadingRate rate : {ShadingRate::eighth, ShadingRate::quarter, ShadingRate::half, ShadingRate::four})
         qualities.push_back({.shading = rate});
-    for (const SineMethod sine : {SineMethod::parabola, SineMethod::table, SineMethod::library})
+    for (const SineMethod sine : {SineMethod::polynomial, SineMethod::table, SineMethod::library})
         qualities.push_back({.sine = sine});
     for (const SetUp set_up : {SetUp::textbook, SetUp::textbook_single}) qualities.push_back({.set_up = set_up});
     ImageGenerator one(scene, 1), three(scene, 3);

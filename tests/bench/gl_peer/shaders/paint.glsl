@@ -26,13 +26,12 @@ vec2 texturing_function(int index, vec3 p, vec3 grown) {
     vec2 sum = vec2(0.5), lost = vec2(0.0);
     for (int i = 0; i < terms; ++i) {
         vec4 term = textures[at + 1 + 2 * i], half_phase = textures[at + 2 + 2 * i];
-        float w = term.x, fade = 4.0 * pi * pi / 48.0 * w * w;
-        float keep_x = max(0.0, 1.0 - fade * growth_x), keep_y = max(0.0, 1.0 - fade * growth_y);
-        if (max(keep_x, keep_y) == 0.0) {
+        float w = term.x, fade = 4.0 * pi * pi / 36.0 * w * w;
+        vec2 kept = max(vec2(0.0), 1.0 - fade * vec2(growth_x, growth_y));
+        if (max(kept.x, kept.y) == 0.0) {
             lost += half_phase.w;
             break;
         }
-        vec2 kept = vec2(keep_x * keep_x, keep_y * keep_y);
         lost += 0.125 * term.y * term.y * (1.0 - kept * kept);
         vec3 halved = 0.5 * w * p + half_phase.xyz;
         float phase_x = w * p.x + term.z + 0.25 * sine(halved.y);

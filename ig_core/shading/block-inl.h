@@ -92,7 +92,8 @@ struct BlockProbe {
             const float w = in.paint->texture->terms[static_cast<std::size_t>(count)].turns_per_metre;
             const float w2 = 4.0F * 9.8696044F * w * w;
             // A term that has been filtered away needs no samples.
-            const bool slow = w2 * reach2 <= kLargestPhaseStep * kLargestPhaseStep, gone = w2 * least_pixel2 >= kFilteredAway;
+            const bool slow = w2 * reach2 <= kLargestPhaseStep * kLargestPhaseStep,
+                       gone = w2 * least_pixel2 >= kFilteredAway;
             if (!slow && !gone) break;
         }
         return count;

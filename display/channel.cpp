@@ -2,6 +2,9 @@
 
 #include <GL/osmesa.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
@@ -52,7 +55,8 @@ Channel::Channel(int width, int height) {
     const std::size_t bytes = impl_->row_bytes * static_cast<std::size_t>(height);
     impl_->pixels.reset(static_cast<std::uint8_t*>(std::aligned_alloc(kRowAlignment, bytes)));
     if (!impl_->pixels) throw std::bad_alloc();
-    for (std::size_t i = 0; i < bytes; ++i) impl_->pixels.get()[i] = i % kBytesPerPixel == 3 ? 255 : 0;
+    constexpr std::array<std::uint8_t, kBytesPerPixel> kBlack{0, 0, 0, 255};
+    for (std::size_t i = 0; i < bytes; i += kBytesPerPixel) std::ranges::copy(kBlack, impl_->pixels.get() + i);
     impl_->context.reset(OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr));
     if (!impl_->context) throw std::runtime_error("video channel: OSMesa gives no context");
     make_current();

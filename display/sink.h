@@ -37,8 +37,8 @@ class Sink {
   public:
     static constexpr std::size_t kDefaultSlots = 6;
 
-    /// Throws std::runtime_error as open_writer does. `give_up` ends a wait under WhenFull::wait; it is asked every 50
-    /// ms.
+    /// Throws std::runtime_error as open_writer does. `give_up` ends a wait under WhenFull::wait; it is asked every
+    /// millisecond.
     Sink(const std::string& url, const VideoFormat& format, WhenFull when_full, std::size_t slots = kDefaultSlots,
          std::function<bool()> give_up = {});
     /// The same for a writer made elsewhere; null discards every frame.

@@ -111,7 +111,7 @@ const Outline& ObjectsInView::outline(std::uint32_t place, std::chrono::nanoseco
         const auto start = std::chrono::steady_clock::now();
         const Sight& s = sight_;
         make_outline(solids_[index], in_view_[place].bounds, index, s.eye, s.eye_from_scene, s.rows, outline, s.set_up);
-        if (outline.zeta_to - outline.zeta_from < s.least_height) outline.zeta_from = 1.0, outline.zeta_to = -1.0;
+        if (outline.zeta_to - outline.zeta_from < s.least_height) outline.show_on_no_row();
         state.store(OutlineState::made, std::memory_order_release);
         time += std::chrono::steady_clock::now() - start;
         return outline;

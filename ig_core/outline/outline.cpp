@@ -126,6 +126,7 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
     fetch(std::span<const Curve>(out.curves)), fetch(std::span<const EdgeLine>(out.lines));
     fetch(std::span<const KeyPoint>(out.key_points));
     out.object = object;
+    out.show_on_no_row();
     out.lines.clear();
     out.key_points.clear();
     out.bands.clear();
@@ -147,8 +148,8 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
         // discriminant.
         const double a = limb.discriminant[2], b = 0.5 * limb.discriminant[1], c = limb.discriminant[0];
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
-        out.zeta_from = (-b + root) / a, out.zeta_to = (-b - root) / a;  // a < 0
-        if (!(a < 0.0 && out.zeta_from < out.zeta_to)) out.zeta_from = 1.0, out.zeta_to = -1.0;
+        const double from = (-b + root) / a, to = (-b - root) / a;
+        if (a < 0.0 && from < to) out.zeta_from = from, out.zeta_to = to;
         out.curves[0].rows = {out.zeta_from, out.zeta_to};
         return;
     }
@@ -165,11 +166,7 @@ void make_outline(const Solid& solid, const ImageBounds& bounds, std::uint32_t o
     else
         solve_bands(out);
     std::erase_if(out.bands, [](const ZBand& band) { return band.count == 0; });
-    if (out.bands.empty()) {
-        out.zeta_from = 1.0, out.zeta_to = -1.0;
-    } else {
-        out.zeta_from = out.bands.front().zeta_from, out.zeta_to = out.bands.back().zeta_to;
-    }
+    if (!out.bands.empty()) out.zeta_from = out.bands.front().zeta_from, out.zeta_to = out.bands.back().zeta_to;
 }
 
 int cuts_on_row_directly(const Outline& outline, double z, Cut* cuts) {

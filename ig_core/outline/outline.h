@@ -74,16 +74,22 @@ struct KeyPoint {
 
 struct Outline {
     std::uint32_t object = 0;
-    bool limb_only = false;             ///< nothing but the limb: one band, one surface
-    bool direct = false;                ///< every row is solved by itself: solids without end
-    double zeta_from = 0, zeta_to = 0;  ///< rows outside show nothing
-    double near_u = 0, far_u = 0;       ///< bounds of 1/k over the solid
-    std::vector<ZBand> bands;           ///< by rising zeta; what is in none of them shows nothing
+    bool limb_only = false;        ///< nothing but the limb: one band, one surface
+    bool direct = false;           ///< every row is solved by itself: solids without end
+    double zeta_from, zeta_to;     ///< rows outside show nothing
+    double near_u = 0, far_u = 0;  ///< bounds of 1/k over the solid
+    std::vector<ZBand> bands;      ///< by rising zeta; what is in none of them shows nothing
     std::vector<Change> changes;
     std::vector<Curve> curves;  ///< [0] the limb, then the intersection curves of the planes that cut
     std::vector<EdgeLine> lines;
     EyeSolid solid;
     std::vector<KeyPoint> key_points;
+
+    Outline() { show_on_no_row(); }
+    void show_on_no_row() {
+        zeta_from = std::numeric_limits<double>::infinity();
+        zeta_to = -std::numeric_limits<double>::infinity();
+    }
 };
 
 /// The rows on which outlines will be asked for: z = top - (row + 1/2) step, row in 0..count-1.

@@ -57,20 +57,32 @@ RowRoots RootsOnSolid(const Outline& outline, std::size_t curve, const EyePlane*
     return {roots[0], roots[1]};
 }
 
+/// Gives each of a band's changes to `take(index, xi)`, none left of the one before; whether its order holds.
+template <class Take>
+HWY_INLINE Mask follow_changes(const Outline& outline, const ZBand& band, Number zeta, const Take& take) {
+    Number left = -std::numeric_limits<double>::infinity();
+    Mask in_order = left == left;
+    for (std::uint32_t i = 0; i < band.count; ++i) {
+        const Number xi = intercept(outline, outline.changes[band.first + i].boundary, zeta);
+        in_order = hn::And(in_order, xi >= left - kDisorder);
+        left = either(xi >= left, xi, left);
+        take(i, left);
+    }
+    return in_order;
+}
+
 void BoundariesOnLines(const Outline& outline, const ZBand& band, const ColumnScale& scale, BoundaryLanes& lines) {
     const Number x0 = outline.solid.x0, origin = scale.left, step = scale.columns_per_x;
     for (std::size_t line = 0; line < lines.count; line += hn::Lanes(D())) {
-        const Number zeta(lines.zeta, line);
-        Number left = -std::numeric_limits<double>::infinity();
-        Mask in_order = left == left;
-        for (std::uint32_t i = 0; i < band.count; ++i) {
-            const Number xi = intercept(outline, outline.changes[band.first + i].boundary, zeta);
-            in_order = hn::And(in_order, xi >= left - kDisorder);
-            left = either(xi >= left, xi, left);
-            ((x0 + left - origin) * step).store(lines.columns[i], line);
-        }
-        either(in_order, 0.0, 1.0).store(lines.wrong, line);
+        const auto take = [&](std::uint32_t i, Number xi)
+                              HWY_ATTR { ((x0 + xi - origin) * step).store(lines.columns[i], line); };
+        either(follow_changes(outline, band, {lines.zeta, line}, take), 0.0, 1.0).store(lines.wrong, line);
     }
+}
+
+bool BoundariesOnLine(const Outline& outline, const ZBand& band, double zeta, double* xi) {
+    const auto take = [&](std::uint32_t i, Number here) HWY_ATTR { xi[i] = hn::GetLane(here.v); };
+    return hn::AllTrue(D(), follow_changes(outline, band, zeta, take));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -83,6 +95,7 @@ namespace quadrig {
 HWY_EXPORT(Intercept);
 HWY_EXPORT(RootsOnSolid);
 HWY_EXPORT(BoundariesOnLines);
+HWY_EXPORT(BoundariesOnLine);
 
 double intercept(const Outline& outline, const Boundary& boundary, double zeta) {
     return HWY_DYNAMIC_DISPATCH(Intercept)(outline, boundary, zeta);
@@ -93,6 +106,9 @@ RowRoots roots_on_solid(const Outline& outline, std::size_t curve, const EyePlan
 void boundaries_on_lines(const Outline& outline, const ZBand& band, const ColumnScale& scale, BoundaryLanes& lines) {
     if (lines.columns.size() < band.count) lines.columns.resize(band.count);
     HWY_DYNAMIC_DISPATCH(BoundariesOnLines)(outline, band, scale, lines);
+}
+bool boundaries_on_line(const Outline& outline, const ZBand& band, double zeta, double* xi) {
+    return HWY_DYNAMIC_DISPATCH(BoundariesOnLine)(outline, band, zeta, xi);
 }
 
 }  // namespace quadrig

@@ -42,4 +42,7 @@ struct BoundaryLanes {
 /// Fills in columns and wrong, from count and zeta; all lines lie in `band`.
 void boundaries_on_lines(const Outline& outline, const ZBand& band, const ColumnScale& scale, BoundaryLanes& lines);
 
+/// The same of one line, in xi: whether the band's order holds on it. Room for band.count.
+bool boundaries_on_line(const Outline& outline, const ZBand& band, double zeta, double* xi);
+
 }  // namespace quadrig

@@ -227,18 +227,13 @@ std::optional<int> cuts_by_band(const Outline& outline, double z, BandPlace& pla
     }
     const ZBand* band = band_on_row(outline, zeta, place);
     if (band == nullptr) return 0;
+    std::array<double, RowOrder::kCapacity> xi;
+    if (!boundaries_on_line(outline, *band, zeta, xi.data())) return std::nullopt;
     int count = 0;
-    double left = -kInfinity;
-    int surface = kNoSurface;
-    for (std::uint32_t i = band->first; i < band->first + band->count; ++i) {
-        double xi = intercept(outline, outline.changes[i].boundary, zeta);
-        if (!(xi >= left)) {
-            if (!(xi >= left - kDisorder)) return std::nullopt;
-            xi = left;
-        }
-        if (surface != kNoSurface && xi > left && count < kMaxCuts) cuts[count++] = {x0 + left, x0 + xi, surface};
-        left = xi;
-        surface = outline.changes[i].surface;
+    for (std::uint32_t i = 0; i + 1 < band->count; ++i) {
+        const int surface = outline.changes[band->first + i].surface;
+        if (surface != kNoSurface && xi[i + 1] > xi[i] && count < kMaxCuts)
+            cuts[count++] = {x0 + xi[i], x0 + xi[i + 1], surface};
     }
     return count;
 }

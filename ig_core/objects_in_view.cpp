@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <functional>
 #include <limits>
 #include <thread>
 #include <utility>
@@ -55,17 +54,17 @@ void ObjectsInView::find_objects(std::span<const SolidExtents> extents, const Vi
 }
 
 void ObjectsInView::keep_outlines(std::span<const std::uint32_t> moved, bool same_view) {
-    if (slots_.size() < solids_.size()) slots_.resize(solids_.size(), kNoSlot);
+    if (slots_.size() < solids_.size()) slots_.resize(solids_.size(), InView::kNoSlot);
     if (!same_view) {
-        for (const std::uint32_t object : slotted_) slots_[object] = kNoSlot;
+        for (const std::uint32_t object : slotted_) slots_[object] = InView::kNoSlot;
         slotted_.clear();
         states_.clear();
     }
     for (const std::uint32_t object : moved)
-        if (slots_[object] != kNoSlot) states_[slots_[object]] = OutlineState::none;
+        if (slots_[object] != InView::kNoSlot) states_[slots_[object]] = OutlineState::none;
     for (InView& seen : in_view_) {
         std::uint32_t& slot = slots_[seen.object];
-        if (slot == kNoSlot) {
+        if (slot == InView::kNoSlot) {
             slot = static_cast<std::uint32_t>(slotted_.size());
             slotted_.push_back(seen.object);
         }

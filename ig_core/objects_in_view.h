@@ -60,7 +60,6 @@ class ObjectsInView {
     StripIndex on_strips_;
 
     enum class OutlineState : std::uint8_t { none, begun, made };
-    static constexpr std::uint32_t kNoSlot = ~0U;
     std::vector<std::uint32_t> slots_;    // by object
     std::vector<std::uint32_t> slotted_;  // objects, by slot
     std::vector<OutlineState> states_;    // by slot

@@ -1,8 +1,6 @@
 #include "ig_core/select.h"
 
 #include <bit>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "ig_core/strip_index.h"
 
@@ -18,12 +16,12 @@ namespace quadrig {
 namespace HWY_NAMESPACE {
 
 /// Whether spheres reach into a view; errs on the side of yes.
-HWY_INLINE Mask reach_into(const ViewWalls& walls, const Vector& centre, Number radius) {
+HWY_INLINE Mask reach_into(const ViewFrustum& frustum, const Vector& centre, Number radius) {
     Mask reaching = radius == radius;
-    for (const Wall& wall : walls) {
-        const Number along = dot(wall.normal, centre);
-        const Number rounding = -1e-9 * (magnitude(along) + std::abs(wall.offset));
-        reaching = hn::And(reaching, along - wall.offset + radius >= rounding);
+    for (const HalfSpace& half_space : frustum) {
+        const Number along = dot(half_space.normal, centre);
+        const Number rounding = -1e-9 * (magnitude(along) + std::abs(half_space.offset));
+        reaching = hn::And(reaching, along - half_space.offset + radius >= rounding);
     }
     return reaching;
 }
@@ -35,13 +33,13 @@ HWY_INLINE Mask may_show_on(const ImagePlane& image, const BoundsLanes& bounds, 
     return hn::And(Number(bounds.farthest, at) > kNearDepth, hn::And(across, down));
 }
 
-std::size_t Select(std::span<const SolidExtents> extents, std::uint32_t first, const View& view, const ViewWalls& walls,
-                   InView* in_view) {
+std::size_t Select(std::span<const SolidExtents> extents, std::uint32_t first, const View& view,
+                   const ViewFrustum& frustum, InView* in_view) {
     BoundsLanes bounds;
     std::size_t count = 0;
     for (const SolidExtents& of : extents) {
         for (std::size_t at = 0; at < SolidExtents::kSolids; at += hn::Lanes(D())) {
-            const Mask near = reach_into(walls, {of.anchor, at}, {of.radius, at});
+            const Mask near = reach_into(frustum, {of.anchor, at}, {of.radius, at});
             if (hn::AllFalse(D(), near)) continue;
             find_bounds(of, at, view.eye, view.eye_from_scene, bounds);
             std::uint8_t bits = 0;
@@ -69,23 +67,8 @@ namespace quadrig {
 
 HWY_EXPORT(Select);
 
-namespace {
-
-ViewWalls walls_of(const View& view) {
-    const ImagePlane& image = view.image;
-    const glm::dmat3 scene_from_eye = glm::transpose(view.eye_from_scene);
-    const auto wall = [&](const glm::dvec3& n, double distance) {
-        const glm::dvec3 normal = scene_from_eye * glm::normalize(n);
-        return Wall{normal, glm::dot(normal, view.eye.metres) + distance};
-    };
-    return {wall({0, 1, 0}, kNearDepth), wall({1, -image.left, 0}, 0), wall({-1, image.x(image.width), 0}, 0),
-            wall({0, -image.z(image.height), 1}, 0), wall({0, image.top, -1}, 0)};
-}
-
-}  // namespace
-
 std::size_t select(std::span<const SolidExtents> extents, std::uint32_t first, const View& view, InView* in_view) {
-    return HWY_DYNAMIC_DISPATCH(Select)(extents, first, view, walls_of(view), in_view);
+    return HWY_DYNAMIC_DISPATCH(Select)(extents, first, view, view_frustum(view), in_view);
 }
 
 }  // namespace quadrig

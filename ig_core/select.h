@@ -1,9 +1,7 @@
 /// Which objects may be in view: the first stage of a frame.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <span>
 
 #include "ig_core/outline/image_bounds.h"
@@ -11,19 +9,12 @@
 
 namespace quadrig {
 
-/// A half-space n.p >= offset of the scene, n of unit length.
-struct Wall {
-    glm::dvec3 normal;
-    double offset;
-};
-/// What bounds a view: near plane and the four sides of the window.
-using ViewWalls = std::array<Wall, 5>;
-
 /// An object in view; all of it in one line of the caches.
 struct alignas(64) InView {
     ImageBounds bounds;
     std::uint32_t object = 0;
-    std::uint32_t slot = ~0U;  ///< of its outline (objects_in_view.h)
+    static constexpr std::uint32_t kNoSlot = ~0U;
+    std::uint32_t slot = kNoSlot;  ///< of its outline (objects_in_view.h)
     std::int32_t first_strip = 0, last_strip = 0;
 };
 

@@ -1,9 +1,11 @@
 /// What the eye sees and how the answer is held: the values that go through the image generator's door.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <span>
@@ -43,6 +45,15 @@ struct View {
     glm::dmat3 eye_from_scene{1.0};
     ImagePlane image;
 };
+
+/// A half-space n.p >= offset of the scene, n of unit length.
+struct HalfSpace {
+    glm::dvec3 normal;
+    double offset = 0.0;  ///< m
+};
+/// What a view can show lies in all of these: beyond the near plane (kNearDepth), within the four sides of the window.
+using ViewFrustum = std::array<HalfSpace, 5>;
+ViewFrustum view_frustum(const View& view);
 
 /// A model of the scene as the host has placed it.
 struct PlacedModel {

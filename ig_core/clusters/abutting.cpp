@@ -16,10 +16,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostPairs = 4'000'000, kMostCompared = 400'000'000;
 
-bool same_form(const Sym3& a, const Sym3& b) {
-    return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
-}
-
 /// Distance between the axes less both reaches: below 0 where they overlap.
 double gap(const CentredQuadric& a, const CentredQuadric& b) {
     const double dx = a.centre.x - b.centre.x, dy = a.centre.y - b.centre.y;
@@ -96,7 +92,7 @@ CentredQuadric centred(const Hill& hill, double base) {
 }
 
 bool abut(const CentredQuadric& a, const CentredQuadric& b) {
-    if (!same_form(a.n, b.n) || gap(a, b) >= 0.0) return false;
+    if (a.n != b.n || gap(a, b) >= 0.0) return false;
     const glm::dvec3 d = b.centre - a.centre;
     const double apart = value(a.n, d);
     if (a.lowest_sheet_below < kInfinity) {

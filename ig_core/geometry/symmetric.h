@@ -10,6 +10,7 @@ namespace quadrig {
 struct Sym3 {
     double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
+    friend bool operator==(const Sym3&, const Sym3&) = default;
     friend Sym3 operator+(const Sym3& a, const Sym3& b) {
         return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
     }

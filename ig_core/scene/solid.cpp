@@ -21,14 +21,12 @@ struct QuadQuadric {
 
 Quad magnitude(Quad a) { return a < 0 ? -a : a; }
 
-glm::dmat3 scene_from_body(const Attitude& attitude) { return glm::transpose(eye_from_scene_rotation(attitude)); }
-
 /// Ellipsoid about its centre: M = R diag(1/a^2) R', c = -1; adj(M) = R diag(1/(bc)^2 ...) R'.
 void set_ellipsoid(const Ellipsoid& e, Solid& solid) {
     const glm::dvec3 a2 = e.semi_axes * e.semi_axes;
     const double smallest = std::min({a2.x, a2.y, a2.z});
     const glm::dvec3 scaled = smallest / a2;  // at most 1
-    const glm::dmat3 body_from_scene = glm::transpose(scene_from_body(e.attitude));
+    const glm::dmat3 body_from_scene = eye_from_scene_rotation(e.attitude);
     const auto in_scene = [&](const glm::dvec3& diagonal) {
         return congruent({diagonal.x, diagonal.y, diagonal.z, 0, 0, 0}, body_from_scene);
     };

@@ -73,22 +73,6 @@ std::vector<BoundingPlane> read_planes(const TomlSection& object) {
     return planes;
 }
 
-}  // namespace
-
-Paint read_paint(const TomlSection& section, Textures& textures) {
-    Paint paint;
-    if (section.has("colour")) paint.colour = section.triple("colour", kColour);
-    if (const auto name = section.optional_text("texture")) {
-        paint.texture = textures.index_of(section, *name);
-    }
-    paint.texture_weight = section.number_or("texture_weight", kFraction, paint.texture_weight);
-    if (paint.texture_weight > 0.0 && !paint.texture) section.refuse("texture_weight", "a texture beside it", "none");
-    if (!section.has("translucence")) return paint;
-    if (!paint.texture) section.refuse("translucence", "a texture beside it", "none");
-    paint.translucence = read_translucence(section.table("translucence", {"threshold", "limb_threshold", "softness"}));
-    return paint;
-}
-
 Motion read_motion(const TomlSection& section, const Object& object) {
     Motion motion;
     if (section.has("velocity")) motion.velocity = section.triple("velocity", kSpeed);
@@ -107,6 +91,22 @@ Motion read_motion(const TomlSection& section, const Object& object) {
                            sway->number_or("wavelength", kLength, Sway{}.wavelength)};
     }
     return motion;
+}
+
+}  // namespace
+
+Paint read_paint(const TomlSection& section, Textures& textures) {
+    Paint paint;
+    if (section.has("colour")) paint.colour = section.triple("colour", kColour);
+    if (const auto name = section.optional_text("texture")) {
+        paint.texture = textures.index_of(section, *name);
+    }
+    paint.texture_weight = section.number_or("texture_weight", kFraction, paint.texture_weight);
+    if (paint.texture_weight > 0.0 && !paint.texture) section.refuse("texture_weight", "a texture beside it", "none");
+    if (!section.has("translucence")) return paint;
+    if (!paint.texture) section.refuse("translucence", "a texture beside it", "none");
+    paint.translucence = read_translucence(section.table("translucence", {"threshold", "limb_threshold", "softness"}));
+    return paint;
 }
 
 Object read_object(const TomlSection& section, Textures& textures) {

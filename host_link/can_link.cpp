@@ -1,8 +1,6 @@
 #include "host_link/can_link.h"
 
 #include <linux/can.h>
-#include <linux/can/raw.h>
-#include <net/if.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,7 +16,7 @@ namespace quadrig::host {
 namespace {
 
 // A second of a bus at its busiest, so that a stall of ours loses nothing.
-constexpr int kReceiveBuffer = 4 << 20;
+constexpr int kBusBuffer = 4 << 20;
 constexpr std::chrono::milliseconds kBusDownPause{100};
 
 }  // namespace
@@ -45,18 +43,8 @@ struct ::can_frame to_kernel(const CanFrame& frame) {
 }
 
 CanLink::CanLink(const LinkUrl& given)
-    : LiveLink(given),
-      socket_(socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)),
-      reply_rate_(url().trust.reply_rate) {
-    if (socket_.fd < 0) fail("this system's kernel has no CAN");
-    const int on = 1;
-    setsockopt(socket_.fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-    setsockopt(socket_.fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
-    sockaddr_can address{};
-    address.can_family = AF_CAN;
-    address.can_ifindex = static_cast<int>(if_nametoindex(url().address.c_str()));
-    if (address.can_ifindex == 0 || bind(socket_.fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-        fail("cannot listen");
+    : LiveLink(given), socket_(can_socket(url(), SOCK_NONBLOCK, "cannot listen")), reply_rate_(url().trust.reply_rate) {
+    queue_with_times(socket_.fd, kBusBuffer);
 }
 
 void CanLink::receive() {

@@ -4,6 +4,7 @@
 #include <linux/can.h>
 
 #include "host_link/live_link.h"
+#include "host_link/sockets.h"
 #include "host_link/trust.h"
 
 namespace quadrig::host {

@@ -3,6 +3,7 @@
 
 #include "host_link/fdm_stream.h"
 #include "host_link/live_link.h"
+#include "host_link/sockets.h"
 #include "host_link/trust.h"
 
 namespace quadrig::host {
@@ -14,15 +15,14 @@ class FdmTcpLink final : public LiveLink {
 
     /// Listens. Throws std::runtime_error with the URL and the system's reason.
     explicit FdmTcpLink(LinkUrl url);
-    ~FdmTcpLink() override;
+    ~FdmTcpLink() override { stop(); }
 
     [[nodiscard]] std::string place() const override { return "port " + std::to_string(port()); }
     [[nodiscard]] std::uint16_t port() const override;
 
   private:
     struct Client {
-        int socket = -1;
-        sockaddr_storage address{};
+        Connection connection;
         Time heard{};
         flightgear::PacketStream packets;
     };
@@ -30,7 +30,6 @@ class FdmTcpLink final : public LiveLink {
     void receive() override;
     void admit();
     void hear_client();
-    void let_go();
 
     Descriptor listening_;
     PeerGate gate_;

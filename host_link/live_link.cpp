@@ -3,12 +3,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "host_link/can_link.h"
@@ -19,30 +17,10 @@
 
 namespace quadrig::host {
 
-Descriptor::~Descriptor() {
-    if (fd >= 0) close(fd);
-}
-
 LiveLink::LiveLink(LinkUrl url) : url_(std::move(url)), wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (!url_.live)
         throw std::runtime_error("link '" + url_.text + "': a live link needs ADDRESS:PORT, or on CAN an interface");
-    if (wake_.fd < 0) fail("cannot open a descriptor");
-}
-
-int LiveLink::listening_socket(int waiting) const {
-    sockaddr_storage storage{};
-    const socklen_t size = socket_address(url_, storage);
-    Descriptor listening(socket(storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (listening.fd < 0) fail("cannot open a socket");
-    const int on = 1;
-    setsockopt(listening.fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    if (bind(listening.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
-    if (listen(listening.fd, waiting) != 0) fail("cannot listen");
-    return std::exchange(listening.fd, -1);
-}
-
-void LiveLink::fail(const std::string& what) const {
-    throw std::runtime_error("link '" + url_.text + "': " + what + ": " + std::system_category().message(errno));
+    if (wake_.fd < 0) throw_errno(url_, "cannot open a descriptor");
 }
 
 void LiveLink::start(const SessionOptions& options) {

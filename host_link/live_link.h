@@ -4,13 +4,11 @@
 #include <sys/socket.h>
 
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,18 +19,9 @@
 #include "host_link/mailbox.h"
 #include "host_link/recording.h"
 #include "host_link/session.h"
+#include "host_link/sockets.h"
 
 namespace quadrig::host {
-
-/// An open file descriptor, closed at its end.
-struct Descriptor {
-    int fd = -1;
-    Descriptor() = default;
-    explicit Descriptor(int f) : fd(f) {}
-    ~Descriptor();
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-};
 
 /// What the image generator tells its hosts at a frame's start.
 struct FrameStatus {
@@ -114,11 +103,6 @@ class LiveLink {
     [[nodiscard]] const News& latched() const { return latched_; }
     void count_reply(bool sent);
     void hold_reply_back() { replies_held_back_.fetch_add(1, std::memory_order_relaxed); }
-
-    /// Bound to the URL's address for TCP, with that many connections waiting at most; not to be waited on by accept.
-    [[nodiscard]] int listening_socket(int waiting) const;
-
-    [[noreturn]] void fail(const std::string& what) const;  ///< throws, with errno's words
 
   private:
     LinkUrl url_;

@@ -4,7 +4,6 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +17,7 @@ namespace quadrig::host {
 
 ModbusLink::ModbusLink(const LinkUrl& given)
     : LiveLink(given),
-      listening_(listening_socket(static_cast<int>(kMostClients))),
+      listening_(listening_socket(url(), static_cast<int>(kMostClients))),
       gate_(url().trust),
       context_(modbus_new_tcp(nullptr, 0)),
       mapping_(modbus_mapping_new_start_address(0, 0, 0, 0, url().modbus.base, modbus::kHoldingRegisters, 0,
@@ -31,7 +30,6 @@ ModbusLink::ModbusLink(const LinkUrl& given)
 
 ModbusLink::~ModbusLink() {
     stop();
-    for (Client& client : clients_) let_go(client);
     modbus_mapping_free(mapping_);
     modbus_free(context_);
 }
@@ -43,16 +41,11 @@ void ModbusLink::frame_begins(const FrameStatus& status) {
     misses_.store(status.misses, std::memory_order_relaxed);
 }
 
-void ModbusLink::let_go(Client& client) {
-    if (!client.gone) close(client.socket);
-    client.gone = true;
-}
-
 void ModbusLink::receive() {
     std::vector<pollfd> waiting;
     while (true) {
         waiting = {pollfd{wake_descriptor(), POLLIN, 0}, pollfd{listening_.fd, POLLIN, 0}};
-        for (const Client& client : clients_) waiting.push_back({client.socket, POLLIN, 0});
+        for (const Client& client : clients_) waiting.push_back({client.connection.socket.fd, POLLIN, 0});
         if (poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) return;
         if (waiting[0].revents != 0) return;
         auto next = waiting.begin() + 2;
@@ -63,52 +56,44 @@ void ModbusLink::receive() {
     }
 }
 
-void ModbusLink::turn_away(int socket, Reject reason) {
-    close(socket);
+void ModbusLink::refuse(Reject reason) {
     const auto lock = lock_session();
     session().refuse(reason);
 }
 
 void ModbusLink::admit() {
-    sockaddr_storage address{};
-    socklen_t size = sizeof address;
-    const int socket =
-        accept4(listening_.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (socket < 0) return;
-    if (!gate_.allows(endpoint_of(address).address)) return turn_away(socket, Reject::not_allowed);
+    auto connection = accept_connection(listening_.fd);
+    if (!connection) return;
+    if (!gate_.allows(endpoint_of(connection->from).address)) return refuse(Reject::not_allowed);
     const Time now = clock_time(CLOCK_MONOTONIC);
     if (clients_.size() == kMostClients) {
         const auto idle = std::ranges::min_element(clients_, {}, &Client::heard);
-        if (now - idle->heard < kIdle) return turn_away(socket, Reject::too_many_clients);
-        let_go(*idle);
+        if (now - idle->heard < kIdle) return refuse(Reject::too_many_clients);
         clients_.erase(idle);
     }
-    const int on = 1;
-    setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    clients_.push_back({socket, connections_++, address, now, {}, false});
+    switch_on(connection->socket.fd, IPPROTO_TCP, TCP_NODELAY);
+    clients_.push_back({*std::move(connection), connections_++, now, {}, false});
 }
 
 void ModbusLink::hear_client(Client& client) {
     std::array<std::byte, 4096> bytes{};
-    const auto size = recv(client.socket, bytes.data(), bytes.size(), 0);
+    const auto size = recv(client.connection.socket.fd, bytes.data(), bytes.size(), 0);
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
-    if (size <= 0) return let_go(client);
+    client.gone = size <= 0;
+    if (client.gone) return;
     client.heard = clock_time(CLOCK_MONOTONIC);
     std::span<const std::byte> stream(bytes.data(), static_cast<std::size_t>(size));
     while (const auto frame = client.frames.next(stream)) {
         {
             const auto lock = lock_session();
-            const Verdict verdict = hear({client.heard, *frame, client.number, client.address, own_port_});
+            const Verdict verdict = hear({client.heard, *frame, client.number, client.connection.from, own_port_});
             if (verdict == Verdict::pose) publish();
         }
-        if (!answer(client, *frame)) return let_go(client);
+        client.gone = !answer(client, *frame);
+        if (client.gone) return;
     }
-    if (!client.frames.broken()) return;
-    {
-        const auto lock = lock_session();
-        session().refuse(Reject::bad_request);
-    }
-    let_go(client);
+    client.gone = client.frames.broken();
+    if (client.gone) refuse(Reject::bad_request);
 }
 
 bool ModbusLink::answer(Client& client, std::span<const std::byte> frame) {
@@ -116,7 +101,7 @@ bool ModbusLink::answer(Client& client, std::span<const std::byte> frame) {
     // An exception response: its own exception's function would wrap round to that of a sound answer.
     if (bytes[modbus::kHeaderSize] >= 0x80) return false;
     const auto read = modbus::read_request(frame);
-    modbus_set_socket(context_, client.socket);
+    modbus_set_socket(context_, client.connection.socket.fd);
     int sent = 0;
     if (const auto* exception = std::get_if<modbus::Exception>(&read)) {
         sent = modbus_reply_exception(context_, bytes, static_cast<unsigned>(*exception));

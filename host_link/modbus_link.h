@@ -5,6 +5,7 @@
 
 #include "host_link/live_link.h"
 #include "host_link/modbus.h"
+#include "host_link/sockets.h"
 #include "host_link/trust.h"
 
 struct _modbus;  // libmodbus' names for its types
@@ -31,12 +32,11 @@ class ModbusLink final : public LiveLink {
 
   private:
     struct Client {
-        int socket = -1;
+        Connection connection;
         std::uint32_t number = 0;  ///< of all connections ever
-        sockaddr_storage address{};
         Time heard{};
         modbus::FrameBuffer frames;
-        bool gone = false;
+        bool gone = false;  ///< to be let go
     };
 
     void receive() override;
@@ -44,9 +44,7 @@ class ModbusLink final : public LiveLink {
     void hear_client(Client& client);
     bool answer(Client& client, std::span<const std::byte> frame);
     void refresh_status();
-    void let_go(Client& client);
-
-    void turn_away(int socket, Reject reason);
+    void refuse(Reject reason);
 
     Descriptor listening_;
     PeerGate gate_;

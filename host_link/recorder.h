@@ -13,6 +13,7 @@
 #include "host_link/live_link.h"
 #include "host_link/recorded_frames.h"
 #include "host_link/recording.h"
+#include "host_link/sockets.h"
 
 namespace quadrig::host {
 

@@ -1,7 +1,5 @@
 #include "host_link/sender.h"
 
-#include <linux/can/raw.h>
-#include <net/if.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -10,14 +8,12 @@
 #include <array>
 #include <cerrno>
 #include <map>
-#include <stdexcept>
-#include <system_error>
 
 #include "host_link/can_frame.h"
 #include "host_link/can_link.h"
 #include "host_link/internet_address.h"
-#include "host_link/live_link.h"
 #include "host_link/modbus.h"
+#include "host_link/sockets.h"
 
 namespace quadrig::host {
 
@@ -25,39 +21,25 @@ namespace {
 
 constexpr int kPatience = 1000;  // ms
 
-[[noreturn]] void fail(const LinkUrl& url, const std::string& what) {
-    throw std::runtime_error("link '" + url.text + "': " + what + ": " + std::system_category().message(errno));
-}
-
-int connected(const LinkUrl& url, int type) {
+/// Of type SOCK_DGRAM or SOCK_STREAM.
+Descriptor connected_socket(const LinkUrl& url, int type) {
     sockaddr_storage address{};
     const socklen_t size = socket_address(url, address);
-    const int fd = socket(address.ss_family, type | SOCK_CLOEXEC, 0);
-    if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return fd;
-    if (fd >= 0) close(fd);
-    fail(url, "cannot connect");
+    Descriptor connected(socket(address.ss_family, type | SOCK_CLOEXEC, 0));
+    if (connected.fd < 0 || connect(connected.fd, reinterpret_cast<const sockaddr*>(&address), size) != 0)
+        throw_errno(url, "cannot connect");
+    if (type == SOCK_STREAM) switch_on(connected.fd, IPPROTO_TCP, TCP_NODELAY);
+    return connected;
 }
 
-class UdpSender final : public Sender {
-  public:
-    explicit UdpSender(const LinkUrl& url) : socket_(connected(url, SOCK_DGRAM)) {}
-    bool send(std::span<const std::byte> bytes, std::uint32_t) override {
-        return ::send(socket_.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
-    }
+bool send_all(const Descriptor& socket, std::span<const std::byte> bytes) {
+    return send(socket.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
 
-  private:
-    Descriptor socket_;
-};
-
-class StreamSender final : public Sender {
+class InternetSender final : public Sender {
   public:
-    explicit StreamSender(const LinkUrl& url) : socket_(connected(url, SOCK_STREAM)) {
-        const int on = 1;
-        setsockopt(socket_.fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    }
-    bool send(std::span<const std::byte> bytes, std::uint32_t) override {
-        return ::send(socket_.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
-    }
+    explicit InternetSender(const LinkUrl& url) : socket_(connected_socket(url, url.tcp ? SOCK_STREAM : SOCK_DGRAM)) {}
+    bool send(std::span<const std::byte> bytes, std::uint32_t) override { return send_all(socket_, bytes); }
 
   private:
     Descriptor socket_;
@@ -65,15 +47,7 @@ class StreamSender final : public Sender {
 
 class CanSender final : public Sender {
   public:
-    explicit CanSender(const LinkUrl& url) : socket_(socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)) {
-        if (socket_.fd < 0) fail(url, "this system's kernel has no CAN");
-        sockaddr_can address{};
-        address.can_family = AF_CAN;
-        address.can_ifindex = static_cast<int>(if_nametoindex(url.address.c_str()));
-        if (address.can_ifindex == 0 ||
-            bind(socket_.fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-            fail(url, "cannot send there");
-    }
+    explicit CanSender(const LinkUrl& url) : socket_(can_socket(url, 0, "cannot send there")) {}
     bool send(std::span<const std::byte> bytes, std::uint32_t) override {
         const auto record = host::can_frame(bytes);
         if (!record) return false;
@@ -95,13 +69,13 @@ class ModbusSender final : public Sender {
   public:
     explicit ModbusSender(const LinkUrl& url) : url_(url) { connection(0); }
     bool send(std::span<const std::byte> bytes, std::uint32_t source) override {
-        const int fd = connection(source);
-        if (::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(bytes.size())) return false;
+        const Descriptor& server = connection(source);
+        if (!send_all(server, bytes)) return false;
         modbus::FrameBuffer answer;
         std::array<std::byte, modbus::kLargestFrame> received{};
-        pollfd waiting{fd, POLLIN, 0};
+        pollfd waiting{server.fd, POLLIN, 0};
         while (poll(&waiting, 1, kPatience) == 1) {
-            const auto size = recv(fd, received.data(), received.size(), 0);
+            const auto size = recv(server.fd, received.data(), received.size(), 0);
             if (size <= 0) return false;
             std::span<const std::byte> stream(received.data(), static_cast<std::size_t>(size));
             if (answer.next(stream)) return true;
@@ -110,18 +84,14 @@ class ModbusSender final : public Sender {
     }
 
   private:
-    int connection(std::uint32_t source) {
-        const auto [place, is_new] = connections_.try_emplace(source);
-        if (is_new) {
-            place->second = std::make_unique<Descriptor>(connected(url_, SOCK_STREAM));
-            const int on = 1;
-            setsockopt(place->second->fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-        }
-        return place->second->fd;
+    const Descriptor& connection(std::uint32_t source) {
+        const auto known = connections_.find(source);
+        if (known != connections_.end()) return known->second;
+        return connections_.emplace(source, connected_socket(url_, SOCK_STREAM)).first->second;
     }
 
     LinkUrl url_;
-    std::map<std::uint32_t, std::unique_ptr<Descriptor>> connections_;
+    std::map<std::uint32_t, Descriptor> connections_;  ///< by source
 };
 
 }  // namespace
@@ -137,8 +107,7 @@ std::unique_ptr<Sender> open_sender(const LinkUrl& given) {
         case Protocol::flightgear_fdm:
             break;
     }
-    if (url.tcp) return std::make_unique<StreamSender>(url);
-    return std::make_unique<UdpSender>(url);
+    return std::make_unique<InternetSender>(url);
 }
 
 }  // namespace quadrig::host

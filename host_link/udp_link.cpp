@@ -19,7 +19,7 @@ namespace {
 constexpr unsigned kBatch = 32;
 constexpr std::size_t kLargestDatagram = 65535;
 // A second of a fast host's messages, so that a stall of ours loses none.
-constexpr int kReceiveBuffer = 1 << 20;
+constexpr int kDatagramBuffer = 1 << 20;
 
 bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
 
@@ -57,13 +57,11 @@ UdpLink::UdpLink(LinkUrl given)
       gate_(url().trust),
       reply_rate_(url().trust.reply_rate),
       open_(!is_loopback(url().address) && url().trust.allow.empty() && !url().trust.reply) {
-    if (socket_.fd < 0) fail("cannot open a socket");
-    const int on = 1;
-    setsockopt(socket_.fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-    setsockopt(socket_.fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
+    if (socket_.fd < 0) throw_errno(url(), "cannot open a socket");
+    queue_with_times(socket_.fd, kDatagramBuffer);
     sockaddr_storage storage{};
     const socklen_t size = socket_address(url(), storage);
-    if (bind(socket_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) fail("cannot bind");
+    if (bind(socket_.fd, reinterpret_cast<const sockaddr*>(&storage), size) != 0) throw_errno(url(), "cannot bind");
     if (url().trust.reply) {
         reply_to_.emplace();
         reply_to_->size = socket_address(*url().trust.reply, reply_to_->address);

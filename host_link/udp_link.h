@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "host_link/live_link.h"
+#include "host_link/sockets.h"
 #include "host_link/trust.h"
 
 namespace quadrig::host {

@@ -31,12 +31,12 @@ PoseAssembler::PoseAssembler(const PoseSettings& settings) : settings_(settings)
 }
 
 PoseAssembler::Channel* PoseAssembler::channel_of(std::uint8_t number) {
-    const auto end = channels_.begin() + static_cast<std::ptrdiff_t>(channel_count_);
-    const auto known = std::find_if(channels_.begin(), end, [&](const Channel& c) { return c.number == number; });
-    if (known != end) return &*known;
-    if (channel_count_ == kMostChannels) return nullptr;
-    channels_[channel_count_].number = number;
-    return &channels_[channel_count_++];
+    const auto known = std::ranges::find(channels_, number, &Channel::number);
+    if (known != channels_.end()) return known;
+    if (channels_.full()) return nullptr;
+    Channel& channel = channels_.push_back({});
+    channel.number = number;
+    return &channel;
 }
 
 PoseAssembler::Place PoseAssembler::place_of(Counter& counter, const Message& message, Time arrival) {
@@ -97,7 +97,7 @@ bool PoseAssembler::drives(Channel& channel, Time now) {
     if (!unbroken) channel.steady_since = now;
     channel.last_pose = now;
     if (settings_.channel) return channel.number == *settings_.channel;
-    const auto index = static_cast<std::size_t>(&channel - channels_.data());
+    const auto index = static_cast<std::size_t>(&channel - channels_.begin());
     const bool alone = !driving_ || *driving_ == index;
     const bool silent = !alone && now - *channels_[*driving_].last_pose > settings_.timeout;
     const bool better = !alone && channel.number < channels_[*driving_].number && now - channel.steady_since >= kSteady;

@@ -8,6 +8,7 @@
 
 #include "host_link/canaerospace.h"
 #include "host_link/host_state.h"
+#include "host_link/inplace_vector.h"
 
 namespace quadrig::host::canaerospace {
 
@@ -77,8 +78,7 @@ class PoseAssembler {
     bool drives(Channel& channel, Time now);
 
     PoseSettings settings_;
-    std::array<Channel, kMostChannels> channels_{};
-    std::size_t channel_count_ = 0;
+    InplaceVector<Channel, kMostChannels> channels_;
     std::optional<std::size_t> driving_;  ///< index of the channel
     std::uint64_t lost_ = 0;
     std::uint64_t restarts_ = 0;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 
+#include "host_link/inplace_vector.h"
 #include "host_link/weather.h"
 #include "ig_core/geometry/space.h"
 
@@ -84,14 +84,9 @@ struct Entity {
 };
 
 /// The entities that a host has named, in the order in which it did. A plain value.
-struct EntityList {
+struct EntityList : InplaceVector<Entity, 65> {
     /// Beside the ownship. Of more, those that stand by make room first, then the newest are left out.
-    static constexpr std::size_t kMost = 64;
-    std::array<Entity, kMost + 1> entities{};
-    std::size_t count = 0;
-
-    [[nodiscard]] const Entity* begin() const { return entities.data(); }
-    [[nodiscard]] const Entity* end() const { return entities.data() + count; }
+    static constexpr std::size_t kMost = InplaceVector::kMost - 1;
     [[nodiscard]] const Entity* find(std::uint16_t id) const {
         const Entity* found = std::find_if(begin(), end(), [&](const Entity& e) { return e.id == id; });
         return found == end() ? nullptr : found;

@@ -55,15 +55,14 @@ Session::Session(const SessionOptions& options)
     state_.ownship = options.ownship;
     state_.silence = options.silence;
     state_.smoothing = !options.synchronous;
-    if (const auto& window = options.default_window)
-        window_ = {window->left, window->right, window->top, window->bottom};
+    window_ = default_window();
 }
 
 Verdict Session::accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source) {
     ++statistics_.datagrams;
     statistics_.bytes += datagram.size();
     answer_size_ = 0;
-    response_count_ = 0;
+    responses_.clear();
     switch (options_.protocol) {
         case Protocol::cigi:
             return accept_cigi(datagram, arrival);
@@ -98,7 +97,7 @@ void Session::restart() {
     ++statistics_.restarts;
     cigi_clock_.restart();
     modbus_clock_.restart();
-    standing_count_ = 0;
+    standing_.clear();
     comparable_ = false;
 }
 

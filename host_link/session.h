@@ -17,6 +17,7 @@
 #include "host_link/frame_order.h"
 #include "host_link/geodesy.h"
 #include "host_link/host_state.h"
+#include "host_link/inplace_vector.h"
 #include "host_link/link_statistics.h"
 #include "host_link/link_url.h"
 #include "host_link/modbus_pose.h"
@@ -113,7 +114,7 @@ class Session {
         std::size_t size = 0;
         bool asked = true;  ///< false: a message for people, that nobody has asked for
     };
-    [[nodiscard]] std::span<const Response> responses() const { return {responses_.data(), response_count_}; }
+    [[nodiscard]] std::span<const Response> responses() const { return {responses_.begin(), responses_.size()}; }
 
     [[nodiscard]] const HostState& state() const { return state_; }
     [[nodiscard]] const LinkStatistics& statistics() const { return statistics_; }
@@ -205,6 +206,7 @@ class Session {
     template <class P>
     void respond(const P& response, cigi::Format format, bool asked = true);
     bool is_our_view(std::uint16_t view);
+    [[nodiscard]] Window default_window() const;
 
     SessionOptions options_;
     SceneFrame scene_frame_;
@@ -233,8 +235,7 @@ class Session {
     TickClock modbus_clock_{kModbusTick};
     std::array<std::byte, kCanRecordSize> answer_{};
     std::size_t answer_size_ = 0;
-    std::array<Response, kMostResponses> responses_{};
-    std::size_t response_count_ = 0;
+    InplaceVector<Response, kMostResponses> responses_;
     /// A request that is answered again every so many host frames.
     struct Standing {
         std::array<std::byte, cigi::LosSegmentRequest::kSize4> packet{};
@@ -244,15 +245,12 @@ class Session {
         Asked asked;
         std::uint32_t since = 0;  ///< host frame
     };
-    std::array<Standing, kMostResponses> standing_{};
-    std::size_t standing_count_ = 0;
+    InplaceVector<Standing, kMostResponses> standing_;
     std::optional<std::uint16_t> view_;
     std::uint8_t view_group_ = 0;  ///< that our view is in; 0: none
     std::array<std::optional<Time>, static_cast<std::size_t>(Warning::count)> warned_{};
-    std::array<cigi::CollisionSegmentDefinition, kMostSegments> segments_{};
-    std::size_t segment_count_ = 0;
-    std::array<cigi::SensorControl, kMostSensors> sensors_{};
-    std::size_t sensor_count_ = 0;
+    InplaceVector<cigi::CollisionSegmentDefinition, kMostSegments> segments_;
+    InplaceVector<cigi::SensorControl, kMostSensors> sensors_;
     Window window_;
     std::optional<GeodeticPose> ownship_pose_;  ///< of the message that is being taken
     struct Ephemeris {
@@ -265,11 +263,11 @@ class Session {
 
 template <class P>
 void Session::respond(const P& response, cigi::Format format, bool asked) {
-    if (response_count_ == responses_.size()) {
+    if (responses_.full()) {
         ++statistics_.answers_dropped;
         return;
     }
-    Response& place = responses_[response_count_++];
+    Response& place = responses_.push_back({});
     place.size = cigi::encode(response, format, place.bytes);
     place.asked = asked;
 }

@@ -166,11 +166,14 @@ void Session::reset_scene() {
     state_.overlay.reset();
     view_ = options_.view;
     view_group_ = 0;
-    window_ = {};
-    if (const auto& window = options_.default_window)
-        window_ = {window->left, window->right, window->top, window->bottom};
+    window_ = default_window();
     ephemeris_.reset();
-    segment_count_ = sensor_count_ = standing_count_ = 0;
+    segments_.clear(), sensors_.clear(), standing_.clear();
+}
+
+Session::Window Session::default_window() const {
+    const auto& window = options_.default_window;
+    return window ? Window{window->left, window->right, window->top, window->bottom} : Window{};
 }
 
 void Session::apply(const cigi::IgControl& packet) {

@@ -164,33 +164,30 @@ void Session::answer_request(const cigi::Packet& packet, const cigi::Message& me
     if (!options_.surveyor) return;
     const auto asked = answer_packet(packet, asking_of(message, arrival));
     if (!asked) return;
-    const auto same = [&](const Standing& s) { return s.kind == packet.id && s.asked.request == asked->request; };
-    const auto end = standing_.begin() + static_cast<std::ptrdiff_t>(standing_count_);
-    auto place = std::find_if(standing_.begin(), end, same);
+    const auto known = std::ranges::find_if(
+        standing_, [&](const Standing& s) { return s.kind == packet.id && s.asked.request == asked->request; });
+    const bool is_known = known != standing_.end();
     // Before 3.2 the field is reserved.
     if (asked->period == 0 || !reply_->separate_counters) {
         // Asked once: whatever was repeated under that number no longer is.
-        if (place != end) *place = standing_[--standing_count_];
+        if (is_known) standing_.erase(known);
         return;
     }
-    if (place == end) {
-        if (standing_count_ == standing_.size()) {
-            ++statistics_.answers_dropped;
-            return;
-        }
-        place = standing_.begin() + static_cast<std::ptrdiff_t>(standing_count_++);
+    if (!is_known && standing_.full()) {
+        ++statistics_.answers_dropped;
+        return;
     }
-    std::ranges::copy(packet.bytes, place->packet.begin());
-    place->size = packet.bytes.size();
-    place->kind = packet.id;
-    place->format = message.format;
-    place->asked = *asked;
-    place->since = message.ig_control.host_frame;
+    Standing& standing = is_known ? *known : standing_.push_back({});
+    std::ranges::copy(packet.bytes, standing.packet.begin());
+    standing.size = packet.bytes.size();
+    standing.kind = packet.id;
+    standing.format = message.format;
+    standing.asked = *asked;
+    standing.since = message.ig_control.host_frame;
 }
 
 void Session::answer_standing(const cigi::Message& message, Time arrival) {
-    for (std::size_t i = 0; i < standing_count_; ++i) {
-        const Standing& standing = standing_[i];
+    for (const Standing& standing : standing_) {
         const std::uint32_t since = message.ig_control.host_frame - standing.since;
         if (since == 0 || since % standing.asked.period != 0) continue;
         Asking asking = asking_of(message, arrival);

@@ -40,30 +40,27 @@ void Session::look_around(const Asking& asking) {
 }
 
 void Session::apply(const cigi::CollisionSegmentDefinition& packet) {
-    const auto first = segments_.begin(), end = first + static_cast<std::ptrdiff_t>(segment_count_);
-    const auto known = std::find_if(
-        first, end, [&](const auto& s) { return s.entity == packet.entity && s.segment == packet.segment; });
+    const auto known = std::ranges::find_if(
+        segments_, [&](const auto& s) { return s.entity == packet.entity && s.segment == packet.segment; });
+    const bool is_known = known != segments_.end();
     if (!cigi::below(kFarthestOffset, packet.from) || !cigi::below(kFarthestOffset, packet.to) ||
         (packet.enable && packet.from == packet.to)) {
         reject(Reject::out_of_range);
         return;
     }
-    if (!packet.enable) {
-        if (known != end) *known = segments_[--segment_count_];
-        return;
-    }
-    if (known == end && segment_count_ == segments_.size()) {
+    if (is_known && packet.enable)
+        *known = packet;
+    else if (is_known)
+        segments_.erase(known);
+    else if (packet.enable && segments_.full())
         ++statistics_.answers_dropped;
-        return;
-    }
-    if (known == end) ++segment_count_;
-    *known = packet;
+    else if (packet.enable)
+        segments_.push_back(packet);
 }
 
 void Session::tell_collisions(const Asking& asking) {
     if (!options_.surveyor) return;
-    for (std::size_t i = 0; i < segment_count_; ++i) {
-        const cigi::CollisionSegmentDefinition& segment = segments_[i];
+    for (const cigi::CollisionSegmentDefinition& segment : segments_) {
         const Entity* entity = state_.entities.find(segment.entity);
         const auto body = body_of(segment.entity, asking.arrival);
         if (entity == nullptr || !entity->detects_collisions || !body) continue;
@@ -84,21 +81,20 @@ void Session::tell_collisions(const Asking& asking) {
 }
 
 void Session::apply(const cigi::SensorControl& packet, const Asking& asking) {
-    const auto first = sensors_.begin(), end = first + static_cast<std::ptrdiff_t>(sensor_count_);
-    auto place =
-        std::find_if(first, end, [&](const auto& s) { return s.view == packet.view && s.sensor == packet.sensor; });
-    const bool tracks = packet.on && packet.track_mode != 0;
+    const auto known = std::ranges::find_if(
+        sensors_, [&](const auto& s) { return s.view == packet.view && s.sensor == packet.sensor; });
+    const bool is_known = known != sensors_.end(), tracks = packet.on && packet.track_mode != 0;
     if (!tracks) {
-        if (place != end) *place = sensors_[--sensor_count_];
+        if (is_known) sensors_.erase(known);
         return tell_sensor(packet, asking);
     }
-    if (place == end && sensor_count_ == sensors_.size()) {
-        ++statistics_.answers_dropped;
-        return;
-    }
     // It is told of with all others that track, once this message has been taken.
-    if (place == end) ++sensor_count_;
-    *place = packet;
+    if (is_known)
+        *known = packet;
+    else if (sensors_.full())
+        ++statistics_.answers_dropped;
+    else
+        sensors_.push_back(packet);
 }
 
 void Session::tell_sensor(const cigi::SensorControl& sensor, const Asking& asking) {
@@ -110,7 +106,7 @@ void Session::tell_sensor(const cigi::SensorControl& sensor, const Asking& askin
 }
 
 void Session::tell_sensors(const Asking& asking) {
-    for (std::size_t i = 0; i < sensor_count_; ++i) tell_sensor(sensors_[i], asking);
+    for (const cigi::SensorControl& sensor : sensors_) tell_sensor(sensor, asking);
 }
 
 }  // namespace quadrig::host

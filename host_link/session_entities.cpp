@@ -32,27 +32,24 @@ void put(Entity& entity, const ScenePose& pose, const glm::dmat3& level_from_sce
 
 Entity* Session::entity_for(std::uint16_t id) {
     EntityList& list = state_.entities;
-    const auto first = list.entities.begin(), end = first + static_cast<std::ptrdiff_t>(list.count);
-    auto place = std::ranges::find(first, end, id, &Entity::id);
-    if (place != end) return &*place;
+    const auto known = std::ranges::find(list, id, &Entity::id);
+    if (known != list.end()) return known;
     const bool ownship = id == options_.ownship;
     // The last place is the ownship's alone.
     const bool has_ownship = list.find(options_.ownship) != nullptr;
-    if (!ownship && list.count - (has_ownship ? 1 : 0) == EntityList::kMost) {
+    if (!ownship && list.size() - (has_ownship ? 1 : 0) == EntityList::kMost) {
         const auto idle =
-            std::ranges::find_if(first, end, [&](const Entity& e) { return !e.active && e.id != options_.ownship; });
-        if (idle == end) {
+            std::ranges::find_if(list, [&](const Entity& e) { return !e.active && e.id != options_.ownship; });
+        if (idle == list.end()) {
             ++statistics_.entities_dropped;
             return nullptr;
         }
-        std::move(idle + 1, end, idle);
-        --list.count;
+        list.erase(idle);
     }
-    place = first + static_cast<std::ptrdiff_t>(list.count++);
-    *place = Entity{};
-    place->id = id;
-    place->active = ownship;
-    return &*place;
+    Entity& entity = list.push_back({});
+    entity.id = id;
+    entity.active = ownship;
+    return &entity;
 }
 
 void Session::apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking) {
@@ -61,12 +58,8 @@ void Session::apply(const cigi::EntityControl& packet, const cigi::Message& mess
     if (ownship && (message.ig_control.minor_version >= 3 || message.format.version == cigi::Version::four))
         state_.smoothing = message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
     if (packet.state == cigi::EntityState::destroyed) {
-        EntityList& list = state_.entities;
-        const auto end = list.entities.begin() + static_cast<std::ptrdiff_t>(list.count);
-        const auto gone = std::ranges::find(list.entities.begin(), end, packet.entity, &Entity::id);
-        if (ownship || gone == end) return;
-        std::move(gone + 1, end, gone);
-        --list.count;
+        const auto gone = std::ranges::find(state_.entities, packet.entity, &Entity::id);
+        if (!ownship && gone != state_.entities.end()) state_.entities.erase(gone);
         return;
     }
     Entity* entity = entity_for(packet.entity);

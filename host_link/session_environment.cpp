@@ -72,28 +72,22 @@ void Session::apply(const cigi::AtmosphereControl& packet) {
 
 WeatherRegion* Session::region_for(std::uint16_t id, const Asking& asking) {
     WeatherRegions& list = state_.regions;
-    const auto first = list.regions.begin(), end = first + static_cast<std::ptrdiff_t>(list.count);
-    const auto place = std::ranges::find(first, end, id, &WeatherRegion::id);
-    if (place != end) return &*place;
-    if (list.count == WeatherRegions::kMost) {
+    const auto known = std::ranges::find(list, id, &WeatherRegion::id);
+    if (known != list.end()) return known;
+    if (list.full()) {
         ++statistics_.regions_dropped;
         warn(Warning::too_many_regions, asking, "no room for weather region %d", int{id});
         return nullptr;
     }
-    *place = WeatherRegion{};
-    place->id = id;
-    ++list.count;
-    return &*place;
+    WeatherRegion& region = list.push_back({});
+    region.id = id;
+    return &region;
 }
 
 void Session::apply(const cigi::EnvironmentalRegionControl& packet, const Asking& asking) {
     if (packet.state == cigi::RegionState::destroyed) {
-        WeatherRegions& list = state_.regions;
-        const auto end = list.regions.begin() + static_cast<std::ptrdiff_t>(list.count);
-        const auto gone = std::ranges::find(list.regions.begin(), end, packet.region, &WeatherRegion::id);
-        if (gone == end) return;
-        std::move(gone + 1, end, gone);
-        --list.count;
+        const auto gone = std::ranges::find(state_.regions, packet.region, &WeatherRegion::id);
+        if (gone != state_.regions.end()) state_.regions.erase(gone);
         return;
     }
     const GeodeticPosition middle{{packet.latitude}, {packet.longitude}, 0.0};

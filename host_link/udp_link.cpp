@@ -143,16 +143,17 @@ void UdpLink::append(const Session::Response& response, std::size_t& size) {
 }
 
 void UdpLink::keep(const Session::Response& message) {
-    if (kept_count_ == kept_.size()) return hold_reply_back();
-    kept_[kept_count_++] = message;
+    if (kept_.full()) return hold_reply_back();
+    kept_.push_back(message);
 }
 
 void UdpLink::append_message(std::uint64_t bytes_taken, std::size_t largest, std::size_t& size) {
+    if (kept_.empty()) return;
     const std::size_t wanted = kept_[0].size;
-    if (kept_count_ == 0 || size + wanted > largest || bytes_taken - bytes_at_last_message_ < wanted) return;
+    if (size + wanted > largest || bytes_taken - bytes_at_last_message_ < wanted) return;
     append(kept_[0], size);
     bytes_at_last_message_ = bytes_taken;
-    std::move(kept_.begin() + 1, kept_.begin() + static_cast<std::ptrdiff_t>(kept_count_--), kept_.begin());
+    kept_.erase(kept_.begin());
 }
 
 void UdpLink::frame_begins(const FrameStatus& status) {

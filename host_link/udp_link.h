@@ -62,8 +62,7 @@ class UdpLink final : public LiveLink {
     bool open_;  ///< anybody may reach the link
     std::uint64_t bytes_answered_ = 0;
     /// Messages that nobody asked for wait until as many bytes have come as they have.
-    std::array<Session::Response, 8> kept_{};
-    std::size_t kept_count_ = 0;
+    InplaceVector<Session::Response, 8> kept_;
     std::uint64_t bytes_at_last_message_ = 0;
     std::uint64_t heard_at_last_frame_ = 0;
     bool told_of_last_frame_ = false;

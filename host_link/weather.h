@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host_link/inplace_vector.h"
 #include "ig_core/geometry/space.h"
 
 namespace quadrig::host {
@@ -39,13 +40,6 @@ struct WeatherRegion {
 };
 
 /// The regions that a host has named, in the order in which it did.
-struct WeatherRegions {
-    static constexpr std::size_t kMost = 8;
-    std::array<WeatherRegion, kMost> regions{};
-    std::size_t count = 0;
-
-    [[nodiscard]] const WeatherRegion* begin() const { return regions.data(); }
-    [[nodiscard]] const WeatherRegion* end() const { return regions.data() + count; }
-};
+using WeatherRegions = InplaceVector<WeatherRegion, 8>;
 
 }  // namespace quadrig::host

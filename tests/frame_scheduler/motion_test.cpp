@@ -289,7 +289,7 @@ TEST_CASE(
     HostState state;
     state.earlier = sample_at(1000ms, 1, {{{0, 0, 0}}, glm::dmat3(1.0)});
     state.pose = sample_at(1100ms, 2, {{{10, 0, 0}}, glm::dmat3(1.0)});
-    host::Entity& own = state.entities.entities[state.entities.count++];
+    host::Entity& own = state.entities.push_back({});
     own.placed = own.active = true;
     own.pose = state.pose->pose;
     own.since = state.pose->arrival;

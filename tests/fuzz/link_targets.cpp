@@ -52,13 +52,13 @@ void check(const HostState& state) {
                     "a layer of weather is somewhere");
     };
     check_layers(state.weather);
-    law(state.regions.count <= WeatherRegions::kMost, "at most so many regions are kept");
+    law(state.regions.size() <= WeatherRegions::kMost, "at most so many regions are kept");
     for (const WeatherRegion& region : state.regions) {
         check_layers(region.layers);
         const double share = region.share_at({});
         law(share >= 0.0 && share <= 1.0, "a share of a region is a share");
     }
-    law(state.entities.count <= EntityList::kMost + 1, "at most so many entities are known");
+    law(state.entities.size() <= EntityList::kMost + 1, "at most so many entities are known");
     for (const Entity& entity : state.entities) {
         if (entity.placed) law(finite(entity.pose), "entities are somewhere");
         if (const auto pose = pose_of(state.entities, entity.id, entity.since + 1h, std::nullopt))

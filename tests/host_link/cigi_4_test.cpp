@@ -125,7 +125,7 @@ TEST_CASE("A 4.0 host gives the very pose that a 3.3 host gives, and the same ru
         CHECK(a.pose->pose.eye_from_scene == b.pose->pose.eye_from_scene);
         CHECK(a.pose->source_time == b.pose->source_time);
         CHECK(a.smoothing == b.smoothing);
-        CHECK(a.entities.count == b.entities.count);
+        CHECK(a.entities.size() == b.entities.size());
     }
     CHECK(hosts.three.statistics().lost > 0);
     CHECK(hosts.four.statistics().lost == hosts.three.statistics().lost);

@@ -297,17 +297,17 @@ TEST_CASE("A host that goes to standby has everything that it put there taken aw
     const HostState& state = host.session.state();
     CHECK(state.mode == Mode::standby);
     CHECK(state.pose->position.latitude.value == 47.2);
-    CHECK(state.entities.count == 0);
+    CHECK(state.entities.empty());
     CHECK_FALSE((state.mount || state.window || state.view_entity || state.visibility || state.utc ||
                  state.weather[0] || state.test_pattern));
-    CHECK(state.regions.count == 0);
+    CHECK(state.regions.empty());
     // What comes in standby stays, and another view may be ours.
     ig.host_frame = 1001;
     host.session.accept(
         message(ByteOrder::big, ig, other, cigi::ViewControl{.view = 5, .yaw_enable = true, .yaw = 3.0F}), 31s);
     ig.host_frame = 1002, ig.mode = cigi::IgMode::operate;
     host.session.accept(message(ByteOrder::big, ig), 32s);
-    CHECK(host.session.state().entities.count == 1);
+    CHECK(host.session.state().entities.size() == 1);
     CHECK(host.session.state().mount->attitude.heading.value == 3.0);
 }
 

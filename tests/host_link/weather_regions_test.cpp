@@ -98,7 +98,7 @@ TEST_CASE("Weather of a region is kept with it, whichever of the two comes first
                                     .coverage = 80.0F,
                                     .base = 500.0F,
                                     .thickness = 1200.0F};
-    REQUIRE(host.send(rain).count == 1);
+    REQUIRE(host.send(rain).size() == 1);
     CHECK_FALSE(host.session.state().regions.begin()->active);
     const WeatherRegion region = *host.send(kRegion).begin();
     CHECK(region.active);
@@ -110,11 +110,11 @@ TEST_CASE("Weather of a region is kept with it, whichever of the two comes first
     more.state = cigi::RegionState::inactive;
     CHECK_FALSE(host.send(more).begin()->active);
     more.region = 8;
-    CHECK(host.send(more).count == 2);
+    CHECK(host.send(more).size() == 2);
     more.region = 7, more.state = cigi::RegionState::destroyed;
-    CHECK(host.send(more).count == 1);
+    CHECK(host.send(more).size() == 1);
     CHECK(host.session.state().regions.begin()->id == 8);
-    CHECK(host.send(more).count == 1);
+    CHECK(host.send(more).size() == 1);
     CHECK(host.refused() == 0);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("A region that makes no sense is refused, and of more than are kept th
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::uint64_t refused = 0;
     const auto check_refused = [&](const Region& region) {
-        CHECK(host.send(region).count == 0);
+        CHECK(host.send(region).size() == 0);
         CHECK(host.refused() == ++refused);
     };
     for (float Region::*field :
@@ -147,6 +147,6 @@ TEST_CASE("A region that makes no sense is refused, and of more than are kept th
         host.send(region);
         CHECK(host.session.responses().size() == (id < WeatherRegions::kMost ? 0 : 1));
     }
-    CHECK(host.session.state().regions.count == WeatherRegions::kMost);
+    CHECK(host.session.state().regions.size() == WeatherRegions::kMost);
     CHECK(host.session.statistics().regions_dropped == 20 - WeatherRegions::kMost);
 }

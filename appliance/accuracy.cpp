@@ -165,9 +165,7 @@ void add_accuracy(CLI::App& program, Action& action) {
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
     command.add_option("--path", options->path, "The cameras (required)")->required()->option_text("CAMERAS.json");
     add_option(command, "--size", options->size, read_size, "Pixels of the picture (default 640x480)", "WxH");
-    command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
-        ->check(CLI::Range(1, config::kMostThreads))
-        ->option_text("N");
+    add_threads_option(command, options->threads);
     command.add_option("--runs", options->runs, "Paired runs, 1..10000 (default 15)")
         ->check(CLI::Range(1, 10000))
         ->option_text("N");

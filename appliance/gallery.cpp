@@ -82,9 +82,7 @@ void add_gallery(CLI::App& program, Action& action) {
     add_option(command, "--size", options->size, read_size, "Pixels of each picture (default: 1280x720)", "WxH");
     add_option(command, "--quality", options->quality, read_quality,
                config::step_names(config::shipped_ladder()) + " (default: best)", "NAME");
-    command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
-        ->check(CLI::Range(1, config::kMostThreads))
-        ->option_text("N");
+    add_threads_option(command, options->threads);
     command.footer(kGalleryExamples);
     command.callback([options, &action] { action = [options] { gallery(*options); }; });
 }

@@ -63,4 +63,12 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& names, std::v
         ->option_text(value_name);
 }
 
+/// --threads; `threads` keeps its value where the option is not given.
+template <class Target>
+CLI::Option* add_threads_option(CLI::App& command, Target& threads) {
+    return command.add_option("--threads", threads, "Threads that draw, 1..1024 (default: one per core)")
+        ->check(CLI::Range(1, config::kMostThreads))
+        ->option_text("N");
+}
+
 }  // namespace quadrig::appliance

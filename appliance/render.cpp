@@ -123,10 +123,7 @@ void add_render(CLI::App& program, Action& action) {
     add_option(command, "--quality", options->quality, read_quality,
                config::step_names(config::shipped_ladder()) + " (default: default)", "NAME")
         ->excludes(reference);
-    command.add_option("--threads", options->threads, "Threads that draw, 1..1024 (default: one per core)")
-        ->check(CLI::Range(1, config::kMostThreads))
-        ->excludes(reference)
-        ->option_text("N");
+    add_threads_option(command, options->threads)->excludes(reference);
     command.footer(kRenderExamples);
     command.callback([options, &action] { action = [options] { render(*options); }; });
 }

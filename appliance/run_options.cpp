@@ -15,9 +15,7 @@ void add_picture_options(CLI::App& command, RunOptions& options) {
     config::ApplianceSettings& settings = options.settings;
     add_option(command, "--size", settings.size, read_size, "Pixels of the picture (default 1280x720)", "WxH");
     add_option(command, "--rate", settings.rate, read_rate, "Frames a second, 1..1000 (default 60)", "HZ");
-    command.add_option("--threads", settings.threads, "Threads that draw, 1..1024 (default: one per core)")
-        ->check(CLI::Range(1, config::kMostThreads))
-        ->option_text("N");
+    add_threads_option(command, settings.threads);
     command
         .add_option(
             "--quality", settings.quality,

@@ -64,9 +64,8 @@ void gallery(const GalleryOptions& options) {
 }
 
 constexpr const char* kGalleryExamples =
-    "A directory of scenes NAME.toml, each with a camera path NAME.json whose first camera is taken. Without --scenes "
-    "it\n"
-    "is the gallery that travels along: the figures of Gardner 1984, and more.\n\n"
+    "A directory of scenes NAME.toml, each with a camera path NAME.json whose first camera is taken. Without --scenes\n"
+    "it is the gallery that travels along: the figures of Gardner 1984, and more.\n\n"
     "Example:\n"
     "  quadrig gallery -o gallery";
 

@@ -78,9 +78,8 @@ void monitor(const MonitorOptions& options) {
 constexpr const char* kMonitorNotes =
     "Once a second: the link's rates, and a line for each packet with the last value of every field; values out of\n"
     "range are marked (!), and what is refused is told with its likely cause. Hosts are answered as by 'run'. With\n"
-    "--strict: a line for each oddity (refused, lost, doubled, out of order or of range, gaps over 50 ms, restarts) "
-    "and\n"
-    "exit status 1 where there was one, or nothing was heard. SIGINT (control-C), SIGTERM and SIGHUP end it.\n\n"
+    "--strict: a line for each oddity (refused, lost, doubled, out of order or of range, gaps over 50 ms, restarts)\n"
+    "and exit status 1 where there was one, or nothing was heard. SIGINT (control-C), SIGTERM and SIGHUP end it.\n\n"
     "Examples:\n"
     "  quadrig monitor cigi://0.0.0.0:8004\n"
     "  quadrig monitor fdm://127.0.0.1:5500 --seconds 10 --strict";

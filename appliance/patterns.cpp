@@ -28,9 +28,8 @@ void patterns(const PatternsOptions& options) {
 }
 
 constexpr const char* kPatternsExamples =
-    "Scenes name a pattern like a texture of their own: texture = \"foliage\". The sheet has a row for each, in the "
-    "order\n"
-    "in which the names are printed: on a plane, a hill and an ellipsoid, each at three distances.\n\n"
+    "Scenes name a pattern like a texture of their own: texture = \"foliage\". The sheet has a row for each, in the\n"
+    "order in which the names are printed: on a plane, a hill and an ellipsoid, each at three distances.\n\n"
     "Example:\n"
     "  quadrig patterns -o sheet.png";
 

@@ -36,10 +36,8 @@ void record(const RecordOptions& options) {
 
 constexpr const char* kRecordNotes =
     "No pictures: only what hosts send, as the link hears it. The file is pcapng, or for CAN candump's text where its\n"
-    "name ends in .log. SIGINT (control-C), SIGTERM and SIGHUP end the recording; whatever ends it, all but the last "
-    "tenth of "
-    "a\n"
-    "second is in the file. 'quadrig run --record FILE' records while it draws.\n\n"
+    "name ends in .log. SIGINT (control-C), SIGTERM and SIGHUP end the recording; whatever ends it, all but the last\n"
+    "tenth of a second is in the file. 'quadrig run --record FILE' records while it draws.\n\n"
     "Examples:\n"
     "  quadrig record flight.pcapng --link fdm://127.0.0.1:5500 --seconds 600\n"
     "  quadrig record flight.log --link can://can0";

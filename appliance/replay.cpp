@@ -204,16 +204,12 @@ void replay(const ReplayOptions& options) {
 }
 
 constexpr const char* kReplayNotes =
-    "The recording is a pcap or pcapng file of CIGI or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or "
-    "a\n"
-    "log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ "
-    "seconds\n"
-    "after its first pose, smoothed between the host's samples: in real time and with --fast, with any number of "
-    "threads,\n"
-    "frame k is the same picture. In real time a frame that is late is left out, and the one before it held; the "
-    "report\n"
-    "counts them. What 'quadrig run --record' wrote is shown frame by frame as it was in that run, at the same "
-    "rate.\n\n"
+    "The recording is a pcap or pcapng file of CIGI or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or\n"
+    "a log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ\n"
+    "seconds after its first pose, smoothed between the host's samples: in real time and with --fast, with any number\n"
+    "of threads, frame k is the same picture. In real time a frame that is late is left out, and the one before it\n"
+    "held; the report counts them. What 'quadrig run --record' wrote is shown frame by frame as it was in that run,\n"
+    "at the same rate.\n\n"
     "Examples:\n"
     "  quadrig replay config/traces/netfdm-c172-takeoff.pcap --scene config/scenes/takeoff.toml --fast \\\n"
     "      --sink y4m:takeoff.y4m --contact-sheet takeoff.png --report takeoff.json\n"

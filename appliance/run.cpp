@@ -168,11 +168,9 @@ void run(const LiveOptions& options) {
 
 constexpr const char* kRunNotes =
     "Ports are bound before the scene is loaded: a host may begin at once. Until its first pose comes, the picture is\n"
-    "that from 2 m above the scene's origin, looking north. Links are cigi://ADDRESS:PORT, fdm://ADDRESS:PORT,\n"
-    "can://INTERFACE and modbus://ADDRESS:PORT; say 0.0.0.0 to be heard beyond this machine. Of several hosts the "
-    "first that was heard within a "
-    "second drives.\n"
-    "SIGINT (control-C), SIGTERM and SIGHUP end the run with its report.\n\n"
+    "that from 2 m above the scene's origin, looking north. Say 0.0.0.0 to be heard beyond this machine. Of several\n"
+    "hosts the first that was heard within a second drives. SIGINT (control-C), SIGTERM and SIGHUP end the run with\n"
+    "its report.\n\n"
     "The same settings may come from a file, for example:\n"
     "  scene = \"scenes/takeoff.toml\"\n"
     "  links = [\"fdm://127.0.0.1:5500\"]\n"
@@ -192,8 +190,8 @@ void add_run(CLI::App& program, Action& action) {
     command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
         ->option_text("[APPLIANCE.toml]");
     add_list_option(command, "--link", options->settings.links, read_live_link,
-                    "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT or can://INTERFACE "
-                    "(required; may be\ngiven again)",
+                    "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT, can://INTERFACE or\n"
+                    "modbus://ADDRESS:PORT (required; may be given again)",
                     "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);

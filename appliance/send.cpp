@@ -43,9 +43,8 @@ void send(const SendOptions& options) {
 }
 
 constexpr const char* kSendNotes =
-    "Whatever the recording's host sent, byte for byte, at its own pace: a host for those who have none. What comes "
-    "back\n"
-    "is not looked at.\n\n"
+    "Whatever the recording's host sent, byte for byte, at its own pace: a host for those who have none. What comes\n"
+    "back is not looked at.\n\n"
     "Examples:\n"
     "  quadrig send config/traces/netfdm-c172-takeoff.pcap --to fdm://127.0.0.1:5500\n"
     "  quadrig send config/traces/canaerospace-c172-takeoff.log --to can://vcan0 --speed 2";

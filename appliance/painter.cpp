@@ -29,6 +29,10 @@ ImagePlane Painter::image_plane() const {
     return ImagePlane::symmetric(settings_.size.width, settings_.size.height, settings_.fov);
 }
 
+display::VideoFormat Painter::video_format() const {
+    return {settings_.size.width, settings_.size.height, settings_.rate.numerator, settings_.rate.denominator};
+}
+
 StageTimes Painter::paint(const View& view, const Environment& environment, std::uint64_t frame_number,
                           const Extras& extras) {
     const std::size_t step = extras.step.value_or(this->step());

@@ -7,6 +7,7 @@
 
 #include "appliance/run_options.h"
 #include "display/channel.h"
+#include "display/frame_writer.h"
 #include "display/overlay.h"
 #include "frame_scheduler/budget_control.h"
 #include "ig_core/image_generator.h"
@@ -41,6 +42,7 @@ class Painter {
     [[nodiscard]] const PictureSettings& settings() const { return settings_; }
     /// The channel's own window, by its size and field of view.
     [[nodiscard]] ImagePlane image_plane() const;
+    [[nodiscard]] display::VideoFormat video_format() const;
 
   private:
     StageTimes draw(const View& view, const Environment& environment, std::uint64_t frame_number, std::size_t step,

@@ -143,10 +143,7 @@ void replay(const ReplayOptions& options) {
     const Scene& scene = painter.scene();
     const host::LinkUrl link =
         options.link.value_or(host::parse_link_url(std::string(name_of(capture.protocol)) + ":"));
-    host::SessionOptions session = session_options(link, scene.origin);
-    session.default_window = window_of(painter.image_plane());
-    session.entity_types = entity_types(given);
-    session.cloud_decks = scene.cloud_decks.size();
+    const host::SessionOptions session = session_options(link, scene, painter.image_plane(), entity_types(given));
     std::optional<RunAgain> again;
     std::optional<Playback> playback;
     ShownAt shown_at;
@@ -165,18 +162,13 @@ void replay(const ReplayOptions& options) {
             return Shown{&playback->state_at(time), time, index, std::nullopt};
         };
     }
-    HostEye eye(surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
-                capture.protocol == host::Protocol::cigi ? std::optional<HostWeather>(scene) : std::nullopt);
-
+    HostEye eye(scene, painter.image_plane(), capture.protocol, options.ignore_host_window, entity_types(given));
     EntitiesAgain entities(given.entities, scene.origin, run ? std::optional(options.recording) : std::nullopt);
 
     const std::uint64_t all = again ? again->size() : frames_in(options, settings.rate, *playback);
     const std::uint64_t frames = frames_wanted(options, settings.rate, all);
-    Outlets outlets({given.sinks,
-                     {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
-                     options.fast ? display::WhenFull::wait : display::WhenFull::drop,
-                     stop_requested,
-                     frames,
+    Outlets outlets({given.sinks, painter.video_format(),
+                     options.fast ? display::WhenFull::wait : display::WhenFull::drop, stop_requested, frames,
                      options.contact_sheet});
     painter.warm_up(standby_view(painter.image_plane()));
     Shown shown;

@@ -84,8 +84,8 @@ scheduler::FrameHooks hooks_for(LiveHosts& hosts, OwnEntities& entities, Painter
             [&](const scheduler::FrameTick& tick) { outlets.hand_over(painter.image(), tick.number); }};
 }
 
-/// Of the protocols only CIGI has words for questions and for weather.
-bool speaks_cigi(const std::unique_ptr<LiveHost>& host) { return host->link->url().protocol == host::Protocol::cigi; }
+/// Of the protocols only CIGI has words for questions.
+bool may_ask(const std::unique_ptr<LiveHost>& host) { return host->link->url().protocol == host::Protocol::cigi; }
 
 LiveHosts listen(const std::vector<host::LinkUrl>& links) {
     LiveHosts hosts;
@@ -127,24 +127,16 @@ void run(const LiveOptions& options) {
     RunLength length{options.frames, options.duration};
     std::optional<std::uint64_t> most_frames = length.frames;
     if (length.duration) most_frames = scheduler::first_frame_from(settings.rate, *length.duration);
-    Outlets outlets({given.sinks,
-                     {settings.size.width, settings.size.height, settings.rate.numerator, settings.rate.denominator},
-                     display::WhenFull::drop,
-                     {},
-                     most_frames,
-                     options.contact_sheet});
-    if (std::any_of(hosts.begin(), hosts.end(), speaks_cigi)) survey.emplace(scene);
+    Outlets outlets(
+        {given.sinks, painter.video_format(), display::WhenFull::drop, {}, most_frames, options.contact_sheet});
+    if (std::any_of(hosts.begin(), hosts.end(), may_ask)) survey.emplace(scene);
     if (!options.record.empty())
         recorder = std::make_unique<host::Recorder>(*hosts.front()->link,
                                                     host::Recorder::Settings{recorded->file, recorded->numbering});
     for (const auto& host : hosts) {
-        host->eye.emplace(
-            surroundings_of(scene, painter.image_plane(), options.ignore_host_window, entity_types(given)),
-            speaks_cigi(host) ? std::optional<HostWeather>(scene) : std::nullopt);
-        host::SessionOptions session = session_options(host->link->url(), scene.origin);
-        session.default_window = window_of(painter.image_plane());
-        session.entity_types = entity_types(given);
-        session.cloud_decks = scene.cloud_decks.size();
+        const host::LinkUrl& url = host->link->url();
+        host->eye.emplace(scene, painter.image_plane(), url.protocol, options.ignore_host_window, entity_types(given));
+        host::SessionOptions session = session_options(url, scene, painter.image_plane(), entity_types(given));
         if (survey) session.surveyor = [&survey](const host::SurveyLine& line) { return survey->answer(line); };
         host->link->start(session);
     }

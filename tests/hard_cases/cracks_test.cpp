@@ -78,6 +78,15 @@ std::vector<std::uint8_t> silhouette(const std::vector<Object>& objects, const V
     return rgba;
 }
 
+/// What a random plane parts a subject into.
+std::vector<Object> cut_in_two(Randomness& random, const Subject& subject) {
+    const BoundingPlane cut = random_cut(random, subject);
+    std::vector<Object> parts{subject.whole, subject.whole};
+    parts[0].planes.push_back(cut);
+    parts[1].planes.push_back(turned_over(cut));
+    return parts;
+}
+
 }  // namespace
 
 TEST_CASE("two parts of a solid cut by one common plane leave no crack, from a thousand eyes") {
@@ -85,10 +94,7 @@ TEST_CASE("two parts of a solid cut by one common plane leave no crack, from a t
     for (int trial = 0; trial < trials(1000); ++trial) {
         Randomness random(trial);
         const Subject subject = random_subject(random);
-        const BoundingPlane cut = random_cut(random, subject);
-        std::vector<Object> parts{subject.whole, subject.whole};
-        parts[0].planes.push_back(cut);
-        parts[1].planes.push_back(turned_over(cut));
+        const std::vector<Object> parts = cut_in_two(random, subject);
         const View view = random_eye(random, subject);
         INFO("seed " << seed() << " trial " << trial);
         CHECK(cracks(subject, parts, view) == 0);
@@ -105,10 +111,7 @@ TEST_CASE("the seam of two parts painted alike does not show") {
     for (int trial = 0; trial < trials(300); ++trial) {
         Randomness random(100'000 + trial);
         const Subject subject = random_subject(random);
-        const BoundingPlane cut = random_cut(random, subject);
-        std::vector<Object> parts{subject.whole, subject.whole};
-        parts[0].planes.push_back(cut);
-        parts[1].planes.push_back(turned_over(cut));
+        const std::vector<Object> parts = cut_in_two(random, subject);
         const View view = random_eye(random, subject);
         const auto whole = silhouette({subject.whole}, view), joined = silhouette(parts, view);
         int inside = 0, on_the_outline = 0;

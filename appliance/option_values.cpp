@@ -1,5 +1,6 @@
 #include "appliance/option_values.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,5 @@
 /// `quadrig send`: a recording becomes a host.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>

@@ -1,7 +1,6 @@
 /// The image generator judged by the reference renderer, on one scene from one eye.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "ig_core/image_generator.h"

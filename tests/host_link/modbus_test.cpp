@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <fstream>
 #include <thread>
 

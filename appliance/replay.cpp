@@ -197,7 +197,7 @@ void replay(const ReplayOptions& options) {
 
 constexpr const char* kReplayNotes =
     "The recording is a pcap or pcapng file of CIGI or FlightGear FDM over UDP, of Modbus/TCP or of CANaerospace, or\n"
-    "a log of candump. Of its flows the one with the most host's datagrams is played. Frame k shows the flight k/HZ\n"
+    "a log of candump. Of its flows that with the most datagrams of a host is played. Frame k shows the flight k/HZ\n"
     "seconds after its first pose, smoothed between the host's samples: in real time and with --fast, with any number\n"
     "of threads, frame k is the same picture. In real time a frame that is late is left out, and the one before it\n"
     "held; the report counts them. What 'quadrig run --record' wrote is shown frame by frame as it was in that run,\n"

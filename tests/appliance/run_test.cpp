@@ -159,13 +159,15 @@ TEST_CASE("A terminal that goes away ends a run with its report, but under nohup
     const std::filesystem::path report = scratch_directory() / "r.json";
     const Arguments run{"run",    "--scene", scene(),    "--link",       "fdm://127.0.0.1:0",
                         "--size", "8x8",     "--report", report.string()};
+    // The tests may run under nohup themselves.
+    const auto before = std::signal(SIGHUP, SIG_DFL);
     Program program(run);
     REQUIRE(program.number_after("listens on port "));
     program.signal(SIGHUP);
     CHECK(program.wait().status == 0);
     CHECK(report_of(report)["repeated_frames"].is_number());
 
-    const auto before = std::signal(SIGHUP, SIG_IGN);
+    std::signal(SIGHUP, SIG_IGN);
     Program nohup(run);
     std::signal(SIGHUP, before);
     REQUIRE(nohup.number_after("listens on port "));

@@ -43,7 +43,10 @@ RunAgain::RunAgain(const host::Capture& capture, const host::SessionOptions& opt
 }
 
 void RunAgain::play_to(std::uint64_t heard) {
+    const auto& changes = frames_.host_changes;
     for (; next_ < heard; ++next_) {
+        for (; next_change_ < changes.size() && changes[next_change_].heard <= next_; ++next_change_)
+            session_.host_changes();
         const host::Capture::Datagram& datagram = capture_.datagrams[next_];
         session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
     }

@@ -55,7 +55,7 @@ class RunAgain {
     const host::Capture& capture_;
     const host::RecordedFrames& frames_;
     host::Session session_;
-    std::size_t next_ = 0;
+    std::size_t next_ = 0, next_change_ = 0;
 };
 
 }  // namespace quadrig::appliance

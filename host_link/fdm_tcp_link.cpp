@@ -39,7 +39,7 @@ void FdmTcpLink::admit() {
     const auto lock = lock_session();
     if (!allowed) return session().refuse(Reject::not_allowed);
     if (client_ && now - client_->heard < kIdle) return session().refuse(Reject::too_many_clients);
-    if (session().state().pose) session().host_changes();
+    if (session().state().pose) host_changes();
     client_.emplace(Client{*std::move(connection), now, {}});
 }
 

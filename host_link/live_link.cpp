@@ -42,9 +42,15 @@ bool LiveLink::take_newest(HostState& state) {
     return true;
 }
 
-Verdict LiveLink::hear(const Heard& heard) {
+Verdict LiveLink::hear(Heard heard) {
+    heard.changes = std::exchange(changes_, 0);
     if (tap_) tap_(heard);
     return session_->accept(heard.bytes, heard.arrival, heard.source);
+}
+
+void LiveLink::host_changes() {
+    session_->host_changes();
+    ++changes_;
 }
 
 void LiveLink::count_reply(bool sent) {

@@ -92,7 +92,9 @@ class LiveLink {
     /// Exclusive use of the session against statistics(); never the frame loop's.
     [[nodiscard]] std::unique_lock<std::mutex> lock_session() const { return std::unique_lock(session_mutex_); }
     /// With the session locked: folds it into the session, and tells the tap.
-    Verdict hear(const Heard& heard);
+    Verdict hear(Heard heard);
+    /// With the session locked: what is heard next is another host's.
+    void host_changes();
     Session& session() { return *session_; }
     void publish() { publish(Peer()); }
     void publish(const Peer& peer) {
@@ -108,6 +110,7 @@ class LiveLink {
     LinkUrl url_;
     Descriptor wake_;
     Tap tap_;
+    std::uint32_t changes_ = 0;  ///< of the host since the tap was told last
     std::unique_ptr<Session> session_;
     mutable std::mutex session_mutex_;
     Mailbox<News> mailbox_;

@@ -147,6 +147,7 @@ void Monitor::hear(const Heard& heard) {
     if (!first_) first_ = viewed_ = heard.arrival;
     const LinkStatistics before = statistics();
     const auto frame_before = session_->state().host_frame;
+    for (std::uint32_t change = 0; change < heard.changes; ++change) session_->host_changes();
     const Verdict verdict = session_->accept(heard.bytes, heard.arrival, heard.source);
     bool field_told = false;
     for (const ToldPacket& packet : told_packets(url_.protocol, heard.bytes)) field_told = tell(packet) || field_told;

@@ -3,11 +3,15 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+
+#include "host_link/read_number.h"
 
 namespace quadrig::host {
 
 namespace {
 constexpr const char* kTitle = "quadrig-frames";
+constexpr std::string_view kHostChange = "host,";
 }  // namespace
 
 std::filesystem::path recorded_frames_file(const std::filesystem::path& recording) {
@@ -31,6 +35,8 @@ std::string line_of(const RecordedFrame& frame) {
            ',' + std::to_string(frame.step) + '\n';
 }
 
+std::string line_of(const HostChange& change) { return std::string(kHostChange) + std::to_string(change.heard) + '\n'; }
+
 std::optional<RecordedFrames> read_recorded_frames(const std::filesystem::path& recording) {
     const auto file = recorded_frames_file(recording);
     std::ifstream stream(file);
@@ -48,6 +54,13 @@ std::optional<RecordedFrames> read_recorded_frames(const std::filesystem::path& 
     if (!head || title != kTitle || version != 2 || slash != '/') fail("'quadrig-frames 2 rate N/D'");
     for (++number; std::getline(stream, line); ++number) {
         if (stream.eof()) break;  // cut in the middle: its process was
+        if (line.starts_with(kHostChange)) {
+            const auto heard = read_number<std::uint64_t>(std::string_view(line).substr(kHostChange.size()));
+            if (!heard || (!result.host_changes.empty() && *heard < result.host_changes.back().heard))
+                fail("'host,heard', the number not going back");
+            result.host_changes.push_back({*heard});
+            continue;
+        }
         std::istringstream cells(line);
         RecordedFrame frame;
         std::int64_t due = 0;

@@ -3,7 +3,8 @@
 ///
 /// Text beside the recording: a first line that tells the rate, then a line "frame,due,heard,step" for each frame
 /// drawn: its number, its deadline in nanoseconds since 1970 by the recording's clock, how many datagrams of the
-/// recording had been taken in, and the step of the quality ladder that it was drawn with.
+/// recording had been taken in, and the step of the quality ladder that it was drawn with. Among them, wherever the
+/// link passed to another host, a line "host,heard": after how many datagrams.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,14 @@ struct RecordedFrame {
     std::uint32_t step = 0;
 };
 
+/// The link passed to another host.
+struct HostChange {
+    std::uint64_t heard = 0;  ///< datagrams of the ones before
+};
+
 struct RecordedFrames {
     FrameNumbering numbering;
+    std::vector<HostChange> host_changes;
     std::vector<RecordedFrame> frames;
 };
 
@@ -44,6 +51,7 @@ std::filesystem::path recording_of_entity(const std::filesystem::path& recording
 
 std::string first_line(const FrameNumbering& numbering);
 std::string line_of(const RecordedFrame& frame);
+std::string line_of(const HostChange& change);
 
 /// Absent where there is no such file. A last line that is cut is left out. Throws std::runtime_error with file and
 /// line where it is something else, or its numbers go back.

@@ -65,7 +65,8 @@ void Recorder::hear(const Heard& heard) {
         return;
     }
     pending_ += text_.piece(heard, heard.arrival + since_1970_);
-    recorded_.fetch_add(1, std::memory_order_relaxed);
+    const std::uint64_t before = recorded_.fetch_add(1, std::memory_order_relaxed);
+    for (std::uint32_t change = 0; change < heard.changes; ++change) pending_changes_ += line_of(HostChange{before});
 }
 
 void Recorder::frame(const RecordedFrame& frame) {
@@ -97,13 +98,14 @@ void Recorder::write_pending() {
     std::uint64_t next = written_.load(std::memory_order_relaxed);
     for (; next != marked; ++next) frames += line_of(marks_[next % kMostMarks]);
     written_.store(next, std::memory_order_release);
-    std::string datagrams;
+    std::string datagrams, changes;
     {
         const std::lock_guard lock(mutex_);
         datagrams.swap(pending_);
+        changes.swap(pending_changes_);
     }
     write_all(out_.fd, datagrams, file_);
-    if (frames_out_.fd >= 0) write_all(frames_out_.fd, frames, frames_file_);
+    if (frames_out_.fd >= 0) write_all(frames_out_.fd, changes + frames, frames_file_);
 }
 
 void Recorder::write_all(int file, const std::string& text, const std::filesystem::path& name) {

@@ -57,7 +57,7 @@ class Recorder {
     Time since_1970_;  ///< whole seconds between the clocks
     Descriptor out_, frames_out_;
     std::mutex mutex_;
-    std::string pending_;
+    std::string pending_, pending_changes_;
     std::string error_;
     std::condition_variable wake_;
     bool ending_ = false;

@@ -25,6 +25,7 @@ struct Heard {
     std::uint32_t source = 0;   ///< Modbus: the connection
     sockaddr_storage from{};    ///< not CAN
     std::uint16_t to_port = 0;  ///< not CAN
+    std::uint32_t changes = 0;  ///< how often the link has passed to another host since the one before
 };
 
 enum class RecordingFormat : std::uint8_t { pcapng, candump };

@@ -100,7 +100,7 @@ void UdpLink::accept_batch(Batch& batch, int count) {
             session().refuse(*judgement.refused);
             continue;
         }
-        if (judgement.passes_on) session().host_changes();
+        if (judgement.passes_on) host_changes();
         const Verdict verdict = hear({arrival, datagram, 0, peer.address, own_port});
         queue(session().responses());
         if (verdict != Verdict::pose && verdict != Verdict::no_pose) continue;

@@ -80,6 +80,7 @@ void read_recorded_frames(Input input) {
         law(frames.has_value(), "a file that is there is read");
         law(std::ranges::is_sorted(frames->frames, {}, &host::RecordedFrame::number), "frames' numbers do not go back");
         law(std::ranges::is_sorted(frames->frames, {}, &host::RecordedFrame::heard), "nothing is unheard");
+        law(std::ranges::is_sorted(frames->host_changes, {}, &host::HostChange::heard), "hosts come one after another");
     } catch (const LawBroken&) {
         throw;
     } catch (const std::runtime_error&) {

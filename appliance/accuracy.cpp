@@ -13,6 +13,7 @@
 #include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
+#include "appliance/output_files.h"
 #include "appliance/run_options.h"
 #include "config/camera_path.h"
 #include "config/scene_file.h"
@@ -127,6 +128,7 @@ std::string conditions(const AccuracyOptions& options) {
 }
 
 void accuracy(const AccuracyOptions& options) {
+    expect_outputs({options.json, options.plot, options.ladder});
     const std::vector<SettingResult> results = measure(options);
     std::cout << conditions(options) << '\n' << accuracy_table(results);
     if (!options.json.empty()) {

@@ -9,6 +9,7 @@
 #include "appliance/frame_run.h"
 #include "appliance/option_values.h"
 #include "appliance/outlets.h"
+#include "appliance/output_files.h"
 #include "appliance/painter.h"
 #include "appliance/run_options.h"
 #include "appliance/run_report.h"
@@ -30,6 +31,7 @@ std::vector<View> views_along(const std::vector<config::Camera>& cameras, const 
 }
 
 void bench(const BenchOptions& options) {
+    expect_outputs({options.report});
     watch_stop_signals();
     const PictureSettings settings = picture_settings(options, options.settings);
     const std::vector<View> views = views_along(config::read_camera_path(options.path), settings.size);

@@ -1,13 +1,11 @@
 /// `quadrig render`: one still picture, and what is seen at its pixel centres.
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "appliance/camera_view.h"
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
+#include "appliance/output_files.h"
 #include "appliance/run_options.h"
 #include "config/quality_ladder.h"
 #include "config/scene_file.h"
@@ -42,15 +40,6 @@ View view_of(const RenderOptions& options) {
     return view_from({{options.eye}, attitude, options.fov}, options.size);
 }
 
-/// Throws where one file would be written over another; devices take both.
-void expect_files_apart(const RenderOptions& options) {
-    const std::array files{options.picture, options.object_ids, options.surface_ids, options.depth};
-    std::error_code none;
-    for (auto file = files.begin(); file != files.end(); ++file)
-        if (!file->empty() && !std::filesystem::is_other(*file, none) && std::find(files.begin(), file, *file) != file)
-            throw WrongUse(file->string() + " is given twice: each output would write over the other");
-}
-
 void write_ground_truth(const RenderOptions& options, const GroundTruth& truth) {
     const auto [columns, rows] = options.size;
     if (!options.object_ids.empty()) display::write_npy(options.object_ids, truth.object_ids, rows, columns);
@@ -61,7 +50,7 @@ void write_ground_truth(const RenderOptions& options, const GroundTruth& truth) 
 void render(const RenderOptions& options) {
     if (options.picture.empty() && !options.wants_ground_truth())
         throw WrongUse("nothing to make; ask for -o picture.png, --object-ids, --surface-ids or --depth");
-    expect_files_apart(options);
+    expect_outputs({options.picture, options.object_ids, options.surface_ids, options.depth});
     Scene scene = scene_at(config::read_scene(options.scene), options.seconds);
     const View view = view_of(options);
     Environment environment;

@@ -11,6 +11,7 @@
 #include "appliance/host_eye.h"
 #include "appliance/option_values.h"
 #include "appliance/outlets.h"
+#include "appliance/output_files.h"
 #include "appliance/painter.h"
 #include "appliance/playback.h"
 #include "appliance/run_options.h"
@@ -124,7 +125,7 @@ config::ApplianceSettings settings_of(const ReplayOptions& options) {
 void replay(const ReplayOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
     if (!given.scene) throw WrongUse("--scene is missing: what is there to see?");
-    expect_sinks_apart(given.sinks);
+    expect_outputs({options.report, options.contact_sheet}, given.sinks);
     if (options.link && options.link->live)
         throw WrongUse("link '" + options.link->text +
                        "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");

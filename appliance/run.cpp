@@ -10,6 +10,7 @@
 #include "appliance/host_eye.h"
 #include "appliance/option_values.h"
 #include "appliance/outlets.h"
+#include "appliance/output_files.h"
 #include "appliance/own_entities.h"
 #include "appliance/painter.h"
 #include "appliance/run_options.h"
@@ -106,7 +107,7 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     if (!options.record.empty() && settings.links.size() != 1)
         throw WrongUse("--record takes one link, beside those of entities: a recording is one host's");
-    expect_sinks_apart(settings.sinks);
+    expect_outputs({options.report, options.contact_sheet, options.record}, settings.sinks);
     return settings;
 }
 

@@ -48,12 +48,6 @@ void add_host_options(CLI::App& command, RunOptions& options) {
     add_option(command, "--seconds", options.duration, read_duration, "Stop after S seconds", "S")->excludes(frames);
 }
 
-void expect_sinks_apart(const std::vector<std::string>& sinks) {
-    for (auto sink = sinks.begin(); sink != sinks.end(); ++sink)
-        if (*sink != "none:" && std::find(sinks.begin(), sink, *sink) != sink)
-            throw WrongUse("sink " + *sink + " is given twice: each would write over the other");
-}
-
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 Scene scene_with_entities(const config::ApplianceSettings& settings) {

@@ -41,9 +41,6 @@ struct PictureSettings {
 /// Throws WrongUse where the ladder has no such quality.
 PictureSettings picture_settings(const RunOptions& options, const config::ApplianceSettings& settings);
 
-/// Throws WrongUse where two sinks would write over each other: the same one, given twice.
-void expect_sinks_apart(const std::vector<std::string>& sinks);
-
 /// The scene of the settings, with a model for every entity of theirs.
 Scene scene_with_entities(const config::ApplianceSettings& settings);
 /// The host's types that they stand for, in the order of the scene's models; -1 for one that no host places.

@@ -1,8 +1,12 @@
 #include "display/atomic_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -25,7 +29,25 @@ std::filesystem::path behind_links(std::filesystem::path path) {
     return path;
 }
 
+std::string name_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+/// Of a program that is killed it leaves nothing behind. Null where the file system has no such files, or the system no
+/// way to name them.
+std::FILE* open_nameless(const std::filesystem::path& directory) {
+    const int descriptor = open(directory.empty() ? "." : directory.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0) return nullptr;
+    std::FILE* const stream = access(name_of(descriptor).c_str(), F_OK) == 0 ? fdopen(descriptor, "wb") : nullptr;
+    if (stream == nullptr) close(descriptor);
+    return stream;
+}
+
 }  // namespace
+
+std::filesystem::path written_to(const std::filesystem::path& path) {
+    std::error_code none;
+    const auto found = std::filesystem::weakly_canonical(behind_links(std::filesystem::absolute(path, none)), none);
+    return none ? path : found;
+}
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     if (is_special(path_)) {
@@ -33,8 +55,10 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     } else {
         part_ = target_ = behind_links(path_);
         part_ += ".part";
+        stream_ = open_nameless(target_.parent_path());
+        nameless_ = stream_ != nullptr;
     }
-    stream_ = std::fopen(part_.c_str(), "wbe");
+    if (!stream_) stream_ = std::fopen(part_.c_str(), "wbe");
     if (!stream_) fail("cannot be written");
 }
 
@@ -45,7 +69,17 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::discard() const {
-    if (part_ != target_) std::remove(part_.c_str());
+    if (part_ != target_ && !nameless_) std::remove(part_.c_str());
+}
+
+/// Only renaming puts a file in another's place, and only one that has a name.
+bool AtomicFile::give_name() {
+    const auto link = [&] {
+        return linkat(AT_FDCWD, name_of(fileno(stream_)).c_str(), AT_FDCWD, part_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (std::fflush(stream_) != 0) return false;
+    nameless_ = !(link() || (errno == EEXIST && std::remove(part_.c_str()) == 0 && link()));
+    return !nameless_;
 }
 
 void AtomicFile::write(const void* data, std::size_t bytes) {
@@ -53,6 +87,7 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 }
 
 void AtomicFile::commit() {
+    if (nameless_ && !give_name()) fail("cannot be written");
     std::FILE* const stream = std::exchange(stream_, nullptr);
     if (std::fclose(stream) == 0 && (part_ == target_ || std::rename(part_.c_str(), target_.c_str()) == 0)) return;
     const int reason = errno;
@@ -66,6 +101,8 @@ void AtomicFile::fail(const char* what) const {
 }
 
 void expect_writable(const std::filesystem::path& path) {
+    if (std::error_code none; std::filesystem::is_directory(path, none))
+        throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(EISDIR));
     if (!is_special(path)) AtomicFile can_be_made(path);
 }
 

@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -96,6 +98,45 @@ TEST_CASE("A pipe, a device or a symbolic link that is written to is still there
     CHECK_THROWS_WITH(write_png(full, test::random_picture(200, 100, 4).image()), Catch::Contains("No space left"));
     CHECK(std::filesystem::is_symlink(full));
     CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 4);
+}
+
+TEST_CASE("A file has no name until it is whole, takes the place of another then, and has a new file's permissions") {
+    const test::TemporaryDirectory directory;
+    const int nameless = open(directory.path().c_str(), O_TMPFILE | O_WRONLY, 0666);
+    if (nameless < 0) {
+        WARN("this file system has no files without a name");
+        return;
+    }
+    close(nameless);
+    const auto file = directory.path() / "text", usual = directory.path() / "usual";
+    const auto entries = [&] { return std::distance(std::filesystem::directory_iterator(directory.path()), {}); };
+    std::ofstream(usual) << "made by somebody else";
+    for (const std::string text : {"once", "once more"}) {
+        const auto before = entries();
+        AtomicFile atomic(file);
+        atomic.write(text.data(), text.size());
+        CHECK(entries() == before);
+        atomic.commit();
+        CHECK(output_of("cat " + file.string()) == text);
+    }
+    CHECK(std::filesystem::status(file).permissions() == std::filesystem::status(usual).permissions());
+    { AtomicFile given_up(directory.path() / "never"); }
+    CHECK(entries() == 2);
+    CHECK_THROWS_WITH(expect_writable(directory.path()), Catch::Contains("Is a directory"));
+}
+
+TEST_CASE("Names of one file lead to one place, however they are spelt") {
+    const test::TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "sub");
+    std::filesystem::create_symlink("not-there-yet", directory.path() / "link");
+    std::filesystem::create_symlink("sub", directory.path() / "other");
+    const auto place = [&](const char* name) { return written_to(directory.path() / name); };
+    CHECK(place("a") == place("./a"));
+    CHECK(place("a") == place("sub/../a"));
+    CHECK(place("a") == written_to(std::filesystem::relative(directory.path() / "a")));
+    CHECK(place("link") == place("not-there-yet"));
+    CHECK(place("other/b") == place("sub/b"));
+    CHECK(place("a") != place("sub/a"));
 }
 
 TEST_CASE("NumPy reads the arrays that are written for it, type, shape and every value") {

@@ -159,6 +159,10 @@ Read read_pcap(const std::filesystem::path& path) {
     CaptureCounts& counts = read.capture.counts;
     const bool bus = pcap_datalink(pcap.get()) == DLT_CAN_SOCKETCAN;
     TcpStreams streams;
+    const auto take_frame = [&read](const TcpStreams::Stream& stream, Time captured, std::span<const std::byte> frame) {
+        add(read, captured, {{}, stream.source, stream.destination, stream.destination_port, true}, frame,
+            stream.number);
+    };
     pcap_pkthdr* header = nullptr;
     const unsigned char* data = nullptr;
     int status = 0;
@@ -177,11 +181,7 @@ Read read_pcap(const std::filesystem::path& path) {
             continue;
         }
         if (const auto* segment = std::get_if<TcpSegment>(&result)) {
-            const bool modbus = streams.feed(*segment, [&](const TcpStreams::Stream& stream, auto frame) {
-                add(read, captured, {{}, segment->source, segment->destination, segment->destination_port, true}, frame,
-                    stream.number);
-            });
-            if (!modbus) ++counts.not_udp;
+            if (!streams.feed(*segment, captured, take_frame)) ++counts.not_udp;
             continue;
         }
         switch (std::get<NotUdp>(result)) {
@@ -196,6 +196,7 @@ Read read_pcap(const std::filesystem::path& path) {
                 break;
         }
     }
+    streams.finish(take_frame);
     if (status != PCAP_ERROR_BREAK) read.capture.truncated = pcap_geterr(pcap.get());
     return read;
 }

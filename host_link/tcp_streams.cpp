@@ -1,24 +1,42 @@
 #include "host_link/tcp_streams.h"
 
-#include <algorithm>
-
 namespace quadrig::host {
 
 TcpStreams::Stream& TcpStreams::stream_of(const TcpSegment& segment) {
     const Key key{segment.source, segment.destination, segment.source_port, segment.destination_port};
     const auto [place, is_new] = streams_.try_emplace(key);
     // A port that is used again is another connection.
-    if (is_new || segment.begins) place->second = Stream{count_++, segment.sequence, {}};
+    if (is_new || segment.begins)
+        place->second =
+            Stream{count_++, segment.source, segment.destination, segment.destination_port, segment.sequence, {}, {}};
     return place->second;
 }
 
-std::span<const std::byte> TcpStreams::fresh_bytes(Stream& stream, const TcpSegment& segment) {
-    auto bytes = segment.payload;
-    const auto behind = static_cast<std::int32_t>(*stream.expected - segment.sequence);
-    if (behind > 0) bytes = bytes.subspan(std::min(static_cast<std::size_t>(behind), bytes.size()));
-    // What is missing was lost to the capture, and with it the rest of the frame that it belonged to.
-    if ((behind < 0 && !bytes.empty()) || stream.frames.broken()) stream.frames = {};
-    if (!bytes.empty()) stream.expected = segment.sequence + static_cast<std::uint32_t>(segment.payload.size());
+bool TcpStreams::is_early(const Stream& stream, const TcpSegment& segment) {
+    const bool ahead = static_cast<std::int32_t>(stream.expected - segment.sequence) < 0;
+    // Where no frames are, there is nothing to keep in order.
+    return ahead && !segment.payload.empty() && !stream.frames.broken();
+}
+
+void TcpStreams::hold(Stream& stream, const TcpSegment& segment, Time captured) {
+    const auto ahead = [&](std::uint32_t sequence) { return sequence - stream.expected; };
+    const auto place = std::ranges::upper_bound(stream.held, ahead(segment.sequence), {},
+                                                [&](const Held& h) { return ahead(h.sequence); });
+    stream.held.insert(place, {segment.sequence, captured, {segment.payload.begin(), segment.payload.end()}});
+}
+
+void TcpStreams::pass_over_gap(Stream& stream) {
+    stream.frames = {};
+    stream.expected = stream.held.front().sequence;
+}
+
+std::span<const std::byte> TcpStreams::fresh_bytes(Stream& stream, std::uint32_t sequence,
+                                                   std::span<const std::byte> payload) {
+    const auto behind = static_cast<std::int32_t>(stream.expected - sequence);
+    const auto known = static_cast<std::size_t>(std::max(behind, 0));
+    const auto bytes = payload.subspan(std::min(known, payload.size()));
+    if (stream.frames.broken()) stream.frames = {};
+    if (!bytes.empty()) stream.expected = sequence + static_cast<std::uint32_t>(payload.size());
     return bytes;
 }
 

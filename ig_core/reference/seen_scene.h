@@ -38,11 +38,13 @@ struct SeenScene {
     [[nodiscard]] Vector<double> direction(double column, double row) const;
 };
 
-/// Depth of a level plane, if it is in front of the eye.
+/// Depth of a level plane, if it is in front of the eye. A ray that is level to the image plane's rounding meets none.
 template <class Scalar>
 std::optional<Scalar> level_depth(const View& view, double altitude, const Vector<Scalar>& direction) {
+    const double widest = std::abs(view.image.left) + std::abs(view.image.top) + 1.0;
+    const Scalar level = 4.0 * std::numeric_limits<double>::epsilon() * widest;
     const Scalar drop = Scalar(altitude) - Scalar(view.eye.metres.z);
-    if (direction[2] == 0 || !(drop / direction[2] > 0)) return std::nullopt;
+    if ((direction[2] <= level && direction[2] >= -level) || !(drop / direction[2] > 0)) return std::nullopt;
     return drop / direction[2];
 }
 

@@ -107,6 +107,24 @@ TEST_CASE("the ground is seen from either side, below and above the horizon resp
     CHECK(ground_truth(scene, four_by_four({7, 8, 0})).object_ids == std::vector<std::int32_t>(16, kSkyId));
 }
 
+TEST_CASE("a ray along the horizon meets no level plane, however its direction was rounded") {
+    Scene scene = with_ground({});
+    CloudDeck deck;
+    deck.altitude = 2000.0;
+    deck.paint.colour = {1, 0, 0};
+    scene.sky = {{0, 0, 1}, {0, 0, 1}};
+    scene.cloud_decks = {deck};
+    for (int trial = 0; trial < 400; ++trial) {
+        const View view = look({0, 0, 10}, {{0.9 * trial}, {}, {}}, 5, 3 + 2 * (trial % 150), 1.0 + 0.4 * trial);
+        CAPTURE(trial);
+        CHECK(seen_in_the_middle(scene, view).object == kSkyId);
+        const LinearImage image = picture(scene, view, {}, 1);
+        const auto middle = 3 * (static_cast<std::size_t>(image.height / 2) * 5 + 2);
+        CHECK(image.rgb[middle] == 0.0F);
+        CHECK(image.rgb[middle + 2] == 1.0F);
+    }
+}
+
 TEST_CASE("solids without thickness and rays that only touch draw nothing") {
     const View view = look({0.25, 0, 0}, {{1}, {2}, {3}});
     const auto draws_nothing = [&](const Object& object) {

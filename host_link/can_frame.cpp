@@ -58,7 +58,7 @@ std::optional<CanFrame> candump_frame(std::string_view text) {
     const auto hash = text.find('#');
     if (hash != kStandardDigits && hash != kExtendedDigits) return std::nullopt;
     const auto id = read_number<std::uint32_t>(text.substr(0, hash), 16);
-    if (!id) return std::nullopt;
+    if (!id || (hash == kStandardDigits && *id > kStandardMask)) return std::nullopt;
     CanFrame frame;
     frame.extended = hash == kExtendedDigits;
     frame.error = frame.extended && (*id & kError) != 0;

@@ -86,12 +86,13 @@ Fields fields_of(const cigi::ViewDefinition& p) {
     return fields;
 }
 
-Fields fields_of(const cigi::CelestialSphereControl& p) {
-    return {{"hour", double(p.hour), "", 0, 23},
-            {"minute", double(p.minute), "", 0, 59},
-            whole("date", p.date),
-            whole("date_time_valid", p.date_time_valid),
-            whole("ephemeris", p.ephemeris)};
+Fields fields_of(const cigi::CelestialSphereControl& p, cigi::Version version) {
+    Fields fields{{"hour", double(p.hour), "", 0, 23}, {"minute", double(p.minute), "", 0, 59}};
+    if (version == cigi::Version::four) fields.push_back({"seconds", p.seconds, "s", 0, 60});
+    fields.push_back(whole("date", p.date));
+    fields.push_back(whole("date_time_valid", p.date_time_valid));
+    fields.push_back(whole("ephemeris", p.ephemeris));
+    return fields;
 }
 
 Fields fields_of(const cigi::AtmosphereControl& p) {

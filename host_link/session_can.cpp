@@ -71,7 +71,8 @@ void Session::apply(const Message& message) {
             const year_month_day date = year(digits(data[2]) * 100 + digits(data[3])) /
                                         month(static_cast<unsigned>(digits(data[1]))) /
                                         day(static_cast<unsigned>(digits(data[0])));
-            if (!four_digits || !date.ok()) {
+            const bool sound = date.ok() && digits(data[2]) < 100 && digits(data[3]) < 100;
+            if (!four_digits || !sound) {
                 reject(four_digits ? Reject::out_of_range : Reject::bad_data_type);
                 return;
             }

@@ -55,7 +55,9 @@ std::optional<SurveyHit> Session::plumb(const GeodeticPosition& below) {
 }
 
 void Session::answer(const cigi::HatHotRequest& request, const Asking& asking) {
-    const auto point = point_of(request.point, request.entity_coordinates, request.entity, asking.arrival);
+    const auto point = request.kind <= cigi::HeightKind::extended
+                           ? point_of(request.point, request.entity_coordinates, request.entity, asking.arrival)
+                           : std::nullopt;
     if (!point) reject(Reject::out_of_range);
     const GeodeticPosition test = point ? scene_frame_.geodetic(*point) : GeodeticPosition{};
     const auto hit = point ? plumb(test) : std::nullopt;
@@ -128,7 +130,7 @@ void Session::answer(const cigi::LosSegmentRequest& request, const Asking& askin
 
 void Session::answer(const cigi::LosVectorRequest& request, const Asking& asking) {
     const auto from = point_of(request.source, request.source_entity, request.entity, asking.arrival);
-    const bool sound = std::isfinite(request.azimuth) && std::isfinite(request.elevation) && request.least >= 0.0F &&
+    const bool sound = in_range({}, {{request.azimuth}, {request.elevation}, {}}) && request.least >= 0.0F &&
                        request.most > request.least && std::isfinite(request.most);
     std::optional<SurveyLine> line;
     if (from && sound) {

@@ -55,17 +55,19 @@ Entity* Session::entity_for(std::uint16_t id) {
 void Session::apply(const cigi::EntityControl& packet, const cigi::Message& message, const Asking& asking) {
     const bool ownship = packet.entity == options_.ownship;
     // Smoothing is on only where both the message and the entity ask for it; before 3.3 neither could.
-    if (ownship && (message.ig_control.minor_version >= 3 || message.format.version == cigi::Version::four))
-        state_.smoothing = message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
+    const bool could = message.ig_control.minor_version >= 3 || message.format.version == cigi::Version::four;
+    const bool smoothing = could && message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
+    if (ownship && could) state_.smoothing = smoothing;
     if (packet.state == cigi::EntityState::destroyed) {
         const auto gone = std::ranges::find(state_.entities, packet.entity, &Entity::id);
         if (!ownship && gone != state_.entities.end()) state_.entities.erase(gone);
         return;
     }
     Entity* entity = entity_for(packet.entity);
-    if (entity != nullptr) entity->detects_collisions = packet.collision_detection;
-    if (entity != nullptr)
-        entity->smoothing = message.ig_control.smoothing && packet.smoothing && !options_.synchronous;
+    if (entity != nullptr) {
+        entity->detects_collisions = packet.collision_detection;
+        entity->smoothing = smoothing;
+    }
     if (entity != nullptr && !ownship) {
         entity->type = packet.extended_type ? std::nullopt : std::optional(packet.type);
         entity->active = packet.state == cigi::EntityState::active;

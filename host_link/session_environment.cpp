@@ -20,8 +20,11 @@ constexpr std::uint16_t kTestPatternComponent = 1, kOverlayComponent = 2;
 
 bool within(double value, double lowest, double highest) { return value >= lowest && value <= highest; }
 
+/// Not ok() where there is no such day.
 std::chrono::year_month_day calendar_date(std::uint32_t mmddyyyy) {
     using namespace std::chrono;
+    // A month of std::chrono's holds eight bits.
+    if (mmddyyyy / 1000000 > 12) return {};
     return year(static_cast<int>(mmddyyyy % 10000)) / month(mmddyyyy / 1000000) / day(mmddyyyy / 10000 % 100);
 }
 

@@ -109,6 +109,11 @@ TEST_CASE("What is no CANaerospace message is refused by its reason") {
     CHECK(reason(frame_of("00FF0141#0102000742B40000")) == "taken");
 }
 
+TEST_CASE("An identifier of three digits is one of eleven bits") {
+    CHECK(read_candump_line("(1.000000) can0 7FF#01020007"));
+    CHECK_FALSE(read_candump_line("(1.000000) can0 800#01020007"));
+}
+
 TEST_CASE("A length code above 8 behind the data is the frame of eight bytes that it belongs to") {
     for (const char code : std::string("9ABCDEFaf"))
         CHECK(frame_of(std::string("141#0102000742B40000_") + code) == frame_of("141#0102000742B40000"));
@@ -364,7 +369,11 @@ TEST_CASE("Date, time and true velocities of a CANaerospace host are in its stat
     CHECK(session.state().utc->minute == 43);
     CHECK(session.state().utc->second == 23.0);
     give(session, message_of("4B0#010F00031D2B1700"), 2s);
-    CHECK(session.statistics().rejected_for(Reject::out_of_range) == 1);
+    // A hundred years to a century.
+    give(session, message_of("4B6#010F00010C061364"), 2s);
+    give(session, message_of("4B0#010F00040D2B1800"), 2s);
+    CHECK(session.state().utc->year == 1987);
+    CHECK(session.statistics().rejected_for(Reject::out_of_range) == 2);
     give(session, with_float(1131, 0, 70.5F), 2s);
     CHECK(session.state().velocity->y == 70.5);
     give(session, message_of("46B#0103000100000005"), 2s);

@@ -178,7 +178,16 @@ TEST_CASE("What cannot be asked is answered as invalid, and too much at once is 
     CHECK_FALSE(host.answer<cigi::LosResponse>().valid);
     host.ask(cigi::LosSegmentRequest{.request = 1});  // no length
     CHECK_FALSE(host.answer<cigi::LosResponse>().valid);
-    CHECK(host.session.statistics().rejected_for(Reject::out_of_range) == 4);
+    const auto at = host.geodetic(0.0, 0.0, 80.0);
+    for (const auto& [azimuth, elevation] : {std::pair{0.0F, -90.1F}, {0.0F, -450.0F}, {-361.0F, -90.0F}}) {
+        cigi::LosVectorRequest request{.request = 1, .source = at};
+        request.azimuth = azimuth, request.elevation = elevation, request.most = 500.0F;
+        host.ask(request);
+        CHECK_FALSE(host.answer<cigi::LosResponse>().valid);
+    }
+    host.ask(cigi::HatHotRequest{.request = 1, .kind = cigi::HeightKind{3}, .point = at});
+    CHECK_FALSE(host.answer<cigi::HatHotResponse>().valid);
+    CHECK(host.session.statistics().rejected_for(Reject::out_of_range) == 8);
     Bytes many = message(ByteOrder::little, ig_control(100));
     for (std::uint16_t i = 0; i < 100; ++i)
         many = std::move(many) + message(ByteOrder::little, cigi::HatHotRequest{.request = i, .period = 1});

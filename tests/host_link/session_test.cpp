@@ -224,6 +224,17 @@ TEST_CASE("Smoothing is on only where a 3.3 host asks for it in both places") {
         session.accept(message(ByteOrder::little, ig, entity), 0ms);
         CHECK(session.state().smoothing == (message_bit && entity_bit));
     }
+    // Before 3.3 the bits were reserved.
+    for (const std::uint8_t minor : {2, 3}) {
+        Session session(at_home());
+        auto ig = ig_control(0);
+        ig.minor_version = minor;
+        auto other = ownship();
+        other.entity = 7;
+        ig.smoothing = other.smoothing = true;
+        session.accept(message(ByteOrder::little, ig, other), 0ms);
+        CHECK(session.state().entities.find(7)->smoothing == (minor == 3));
+    }
 }
 
 TEST_CASE("Poses that are not finite or out of range are counted and not taken, in both protocols") {

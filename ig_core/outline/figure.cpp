@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ig_core/outline/figure_bands.h"
 
@@ -25,12 +26,18 @@ void add_zeros(const std::array<double, 3>& c, std::vector<double>& zetas) {
     zetas.insert(zetas.end(), {q / c[2], c[0] / q});
 }
 
+/// The row along which a curve goes off to either side, where it has one.
+std::optional<double> asymptote_row(const RowConic& conic) {
+    if (!(std::abs(conic.alpha) < kRounding * std::abs(conic.beta[1]))) return std::nullopt;
+    return -conic.beta[0] / conic.beta[1];
+}
+
 /// Rows, in order, between which a curve is smooth: the window's ends, the extrema, where two lines cross, and the row
 /// that an asymptote takes.
 std::vector<double> rows_of(const RowConic& conic, double zeta_from, double zeta_to) {
     std::vector<double> rows;
     add_zeros(conic.discriminant, rows);
-    if (std::abs(conic.alpha) < kRounding * std::abs(conic.beta[1])) rows.push_back(-conic.beta[0] / conic.beta[1]);
+    if (const auto row = asymptote_row(conic)) rows.push_back(*row);
     std::erase_if(rows, [&](double zeta) { return !(zeta > zeta_from && zeta < zeta_to); });
     rows.insert(rows.end(), {zeta_from, zeta_to});
     std::sort(rows.begin(), rows.end());
@@ -64,13 +71,20 @@ std::vector<Polyline> whole_curve(const Outline& outline, std::size_t curve, con
         return pieces;
     }
     const std::vector<double> ends = rows_of(conic, low, high);
+    const auto asymptote = asymptote_row(conic);
+    // On the row itself rounding would say to which side, and a chord to there would cross the window.
+    const auto is_asymptote = [&](double zeta) {
+        return asymptote && std::abs(zeta - *asymptote) <= kRounding * (std::abs(z0) + std::abs(*asymptote));
+    };
     for (std::size_t i = 1; i < ends.size(); ++i) {
         if (!(conic.discriminant_at(0.5 * (ends[i - 1] + ends[i])) > 0.0)) continue;
         for (const auto kind : {Boundary::Kind::rising, Boundary::Kind::falling}) {
             const Boundary side{kind, static_cast<std::uint16_t>(curve)};
             const auto x_at = [&](double z) {
                 const double zeta = z - z0, xi = drawn_intercept(outline, side, zeta);
-                return behind(glm::dvec3(xi, 1.0, zeta)) ? std::numeric_limits<double>::quiet_NaN() : x0 + xi;
+                return is_asymptote(zeta) || behind(glm::dvec3(xi, 1.0, zeta))
+                           ? std::numeric_limits<double>::quiet_NaN()
+                           : x0 + xi;
             };
             const double tolerance = kFigureTolerance * window.width();
             for (const Polyline& path : follow(z0 + ends[i - 1], z0 + ends[i], x_at, window, tolerance))

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "tests/outline/eye_forms.h"
 #include "tests/outline/figure_cases.h"
@@ -60,7 +61,9 @@ bool on_border(const ImageWindow& w, const glm::dvec2& p) {
 TEST_CASE("a figure's strokes lie on the curves and lines they are named after, points and chords") {
     CAPTURE(seed());
     long chords = 0, wrong = 0;
-    for (int trial = 0; trial < trials(1000); ++trial) {
+    std::vector<int> chosen{34340, 45009};  // of the shipped seed: curves with level asymptotes
+    for (int trial = 0; trial < trials(1000); ++trial) chosen.push_back(trial);
+    for (const int trial : chosen) {
         Randomness random(300'000 + trial);
         const Case given = random_case(random, random.chance(0.9));
         const Figure figure = figure_of(given);

@@ -182,9 +182,13 @@ Overlap overlap_on_line(const RowSpan& a, const RowSpan& b, std::size_t line) {
 }
 
 /// Planes without end pass in front of part of a light's disc wherever it stands close to them: they are compared where
-/// its centre is, so that a light is seen whole or not at all.
+/// its centre is, so that a light is seen whole or not at all. One that stands on the plane is in front of it.
 bool light_in_front_of_plane(const SeenLight& light, const PlaneDepth& plane) {
-    return light.u >= plane.at + plane.along_x * light.x + plane.along_z * light.z;
+    const double along_x = plane.along_x * light.x, along_z = plane.along_z * light.z;
+    // Relative to the terms of the sum: what may be rounding, of the light's place in the image too.
+    constexpr double kRounding = 1e-12;
+    const double rounding = kRounding * (std::abs(plane.at) + std::abs(along_x) + std::abs(along_z));
+    return light.u >= plane.at + along_x + along_z - rounding;
 }
 
 void put(RowSpan& piece, const RowSpan& whole, std::size_t line, double from, double to) {

@@ -91,6 +91,17 @@ TEST_CASE("Everything that a host's developers should know of becomes a line, wi
     CHECK(link.monitor.oddities() == 8);
 }
 
+TEST_CASE("A link that passes to another host is told as a restart, though its messages do not show it") {
+    Watched link("fdm://127.0.0.1:0?transport=tcp");
+    for (int i = 0; i < 3; ++i) link.hear(fdm(24));
+    CHECK(link.oddities().empty());
+    Heard other{link.now += 16667us, {}};
+    const Bytes first = fdm(24);
+    other.bytes = first, other.changes = 1;
+    link.monitor.hear(other);
+    CHECK_THAT(link.oddities(), Contains("message 4: restart"));
+}
+
 TEST_CASE("The likely cause of what is refused is said in words") {
     Watched link("fdm:");
     link.hear(fdm(25));

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 
 #include "ig_core/reference/error.h"
 #include "tests/ig_core/random_scene.h"
@@ -107,6 +108,29 @@ TEST_CASE("lights are drawn as the reference draws them, behind and in front of 
         quality.sub_scan_lines = 8;
         CAPTURE(trial);
         CHECK(psnr(scene, view, quality) > 34);
+    }
+}
+
+TEST_CASE("a light that stands on the ground, or on a cloud deck, is seen from either side, wherever the eye is") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(400); ++trial) {
+        Randomness random(trial);
+        Scene scene = plain();
+        CloudDeck deck;
+        deck.altitude = random.between(40, 60);
+        deck.paint.colour = {0.2, 0.2, 0.2};
+        scene.cloud_decks = {deck};
+        const bool on_deck = random.chance(0.3);
+        const glm::dvec3 at(random.between(-300, 300), random.between(-300, 300), on_deck ? deck.altitude : 0.0);
+        scene.lights = {LightPoint{{at}, {1, 1, 1}, 100, random.log_between(0.1, 5), {}}};
+        // From between the two, or from the other side of the one that holds it.
+        const double height = random.chance(0.7) ? random.between(1, 39) : on_deck ? random.between(61, 400) : -20.0;
+        const glm::dvec3 eye(random.between(-50, 50), random.between(-50, 50), height), way = at - eye;
+        const Attitude attitude{{glm::degrees(std::atan2(way.x, way.y)) + random.between(-9, 9)},
+                                {glm::degrees(std::atan2(way.z, std::hypot(way.x, way.y))) + random.between(-9, 9)},
+                                {random.between(-180, 180)}};
+        CAPTURE(trial, at.x, at.y, at.z, eye.x, eye.y, eye.z);
+        CHECK(light_in(scene, look(eye, attitude, 65, 49, 30)) > 0.05);
     }
 }
 

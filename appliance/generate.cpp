@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "appliance/commands.h"
+#include "appliance/output_files.h"
 #include "config/scene_file.h"
 #include "display/atomic_file.h"
 
@@ -16,6 +17,7 @@ struct GenerateOptions {
 };
 
 void generate(const GenerateOptions& options) {
+    expect_outputs({options.output});
     std::ostringstream text;
     config::write_scene(config::read_scene(options.scene), text);
     const std::string toml = std::move(text).str();

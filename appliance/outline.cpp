@@ -8,6 +8,7 @@
 #include "appliance/commands.h"
 #include "appliance/figure_svg.h"
 #include "appliance/option_values.h"
+#include "appliance/output_files.h"
 #include "config/quality_ladder.h"
 #include "config/scene_file.h"
 #include "display/atomic_file.h"
@@ -103,6 +104,7 @@ FigureRow row_of(const Scene& scene, const Object& object, const OutlineOptions&
 
 void outline(const OutlineOptions& options) {
     if (options.eye && !options.attitude) throw WrongUse("--eye needs --attitude: where to look from there");
+    expect_outputs({options.figure});
     const Scene scene = config::read_scene(options.scene);
     std::vector<const Object*> objects;
     for (const std::string& name : options.objects) objects.push_back(&object_named(scene, name, options.scene));

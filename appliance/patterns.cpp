@@ -5,6 +5,7 @@
 
 #include "appliance/commands.h"
 #include "appliance/option_values.h"
+#include "appliance/output_files.h"
 #include "appliance/pattern_sheet.h"
 #include "config/config_directory.h"
 #include "config/texture_section.h"
@@ -19,6 +20,7 @@ struct PatternsOptions {
 };
 
 void patterns(const PatternsOptions& options) {
+    expect_outputs({options.sheet});
     const std::vector<Texture> all = config::read_patterns();
     if (all.empty()) throw std::runtime_error("there is no patterns.toml in " + config::config_directory().string());
     for (const Texture& pattern : all) std::cout << pattern.name << '\n';

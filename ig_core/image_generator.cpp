@@ -35,10 +35,9 @@ PlaneDepth horizontal_plane(const View& view, double altitude) {
 
 /// Scratch of one worker; nothing in it survives a strip but its memory.
 struct RowWorker {
-    std::array<std::vector<RowSpan>, kStripRows> spans;
     ObjectSpans object;
     StripCover cover;
-    RowSweep sweep;
+    std::array<RowSweep, kStripRows> sweeps;  // of a strip's rows
     RowShader shader;
     std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
     std::uint64_t span_count = 0, pair_count = 0;
@@ -89,10 +88,11 @@ struct ImageGenerator::Impl {
     /// Spans of a strip's rows, object by object: each is looked up once.
     void add_spans(std::span<const PixelRow> rows, bool everything_opaque, const PlaneSurfaces& planes,
                    RowWorker& worker);
-    /// Sweeps every row of an image, strip by strip, and hands it to `draw(row, worker)`.
-    template <class Draw>
+    /// Sweeps every row of an image, strip by strip, and hands it to `draw(row, sweep, worker)`; what that is given
+    /// lives until `finish(worker)`, after a strip's last row.
+    template <class Draw, class Finish>
     void sweep_rows(const View& view, const Quality& quality, bool everything_opaque, const PlaneSurfaces& planes,
-                    Draw&& draw);
+                    Draw&& draw, Finish&& finish);
 
     Scene scene;
     Workers workers;
@@ -175,9 +175,9 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
                                      const PlaneSurfaces& seen_planes, RowWorker& worker) {
     const int strip = rows[0].row / kStripRows;
     const auto on_every_row = [&](auto&& add) {
-        for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], worker.spans[r]);
+        for (std::size_t r = 0; r < rows.size(); ++r) add(rows[r], worker.sweeps[r].spans);
     };
-    for (std::size_t r = 0; r < rows.size(); ++r) worker.spans[r].clear();
+    for (std::size_t r = 0; r < rows.size(); ++r) worker.sweeps[r].spans.clear();
     static_assert(kStripRows <= StripCover::kRows);
     worker.cover.clear(rows[0].columns);
     worker.object.set_rows(rows);
@@ -191,13 +191,14 @@ void ImageGenerator::Impl::add_spans(std::span<const PixelRow> rows, bool everyt
         const Columns columns = columns_touched(rows[0], around.x_from, around.x_to);
         const StripCover::Rows open = rows_within(rows, around) & worker.cover.open(columns, around.near_u());
         if (open == 0) continue;
-        const bool opaque = everything_opaque || object_opaque[objects.object(place)] != 0;
-        worker.object.start(objects.outline(place, worker.outline_time), place, opaque);
+        const std::uint32_t object = objects.object(place);
+        const bool opaque = everything_opaque || object_opaque[object] != 0;
+        worker.object.start(objects.outline(place, worker.outline_time), object, opaque);
         const ObjectSpans::Rows may_show = worker.object.that_may_show();
         StripCover::Covered covered;
         for (std::size_t r = may_show.first; r < may_show.last; ++r) {
             if ((open >> r & 1U) == 0) continue;
-            std::vector<RowSpan>& spans = worker.spans[r];
+            std::vector<RowSpan>& spans = worker.sweeps[r].spans;
             const std::size_t before = spans.size();
             worker.object.add(r, spans);
             if (!opaque || !around.in_front()) continue;
@@ -258,9 +259,9 @@ PixelRow pixel_row(const View& view, int r, const Quality& quality) {
 
 }  // namespace
 
-template <class Draw>
+template <class Draw, class Finish>
 void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, bool everything_opaque,
-                                      const PlaneSurfaces& seen_planes, Draw&& draw) {
+                                      const PlaneSurfaces& seen_planes, Draw&& draw, Finish&& finish) {
     for (RowWorker& worker : row_workers)
         worker.outline_time = worker.sweep_time = worker.draw_time = {}, worker.span_count = worker.pair_count = 0;
     const int height = view.image.height;
@@ -276,12 +277,13 @@ void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, 
         auto before = Clock::now();
         own.sweep_time += before - start - (own.outline_time - outlines_before);
         for (std::size_t r = 0; r < used; ++r) {
-            own.sweep.spans.swap(own.spans[r]);
-            own.span_count += own.sweep.spans.size();
-            own.sweep.sweep(rows[r]);
-            own.pair_count += own.sweep.pairs;
+            RowSweep& sweep = own.sweeps[r];
+            own.span_count += sweep.spans.size();
+            sweep.sweep(rows[r]);
+            own.pair_count += sweep.pairs;
             const auto swept = Clock::now();
-            draw(rows[r], own);
+            draw(rows[r], sweep, own);
+            if (r + 1 == used) finish(own);
             const auto drawn = Clock::now();
             own.sweep_time += swept - before;
             own.draw_time += drawn - swept;
@@ -317,10 +319,14 @@ StageTimes ImageGenerator::render(const View& asked, const Environment& environm
     g.look_at_features(view, environment, may_slip ? view.image.row_step : asked.image.row_step);
     const FrameShading frame{glm::transpose(view.eye_from_scene), &g.paints, &g.scene.lights,
                              make_frame_light(g.scene, environment), quality};
-    g.sweep_rows(view, quality, false, g.planes, [&](const PixelRow& row, RowWorker& own) {
-        own.shader.draw(frame, row, own.sweep);
-        write_row(own.shader, row.row, quality.shading, image);
-    });
+    const auto draw_added = [&](RowWorker& own) {
+        own.shader.draw(frame, [&](const PixelRow& row) { write_row(own.shader, row.row, quality.shading, image); });
+    };
+    const auto draw = [&](const PixelRow& row, const RowSweep& sweep, RowWorker& own) {
+        own.shader.add(row, sweep);
+        if (own.shader.is_full()) draw_added(own);
+    };
+    g.sweep_rows(view, quality, false, g.planes, draw, draw_added);
 
     g.work = {};
     g.work.objects = g.objects.count();
@@ -353,8 +359,7 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
     const PlaneSurfaces planes{horizontal_plane(view, 0.0), g.scene.ground.has_value(), {}};
     GroundTruth truth;
     truth.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    g.sweep_rows(view, quality, true, planes, [&](const PixelRow& row, RowWorker& own) {
-        const RowSweep& sweep = own.sweep;
+    const auto draw = [&](const PixelRow& row, const RowSweep& sweep, RowWorker&) {
         for (const LayerRun& run : sweep.runs) {
             const Surface& surface = sweep.spans[sweep.layers[run.first_layer]].surface;
             if (surface.kind == Surface::Kind::sky) continue;
@@ -371,7 +376,8 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
                 truth.depth[at] = 1.0 / u;
             }
         }
-    });
+    };
+    g.sweep_rows(view, quality, true, planes, draw, [](RowWorker&) {});
     return truth;
 }
 

@@ -13,26 +13,35 @@ HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 
+/// Layers that each cover all of every pixel, laid over one another from a column on.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3<V> laid_over(D d, const ShadeBuffer& buffer, std::span<const CompositeLayer> layers,
+                             std::size_t column) {
+    const V one = hn::Set(d, 1.0F);
+    Vec3<V> light{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    V through = one;
+    for (const CompositeLayer& layer : layers) {
+        const std::size_t at = layer.sample(column);
+        const V opacity = hn::LoadU(d, buffer.opacity.data() + at);
+        const V weight = hn::Mul(through, opacity);
+        light.x = hn::MulAdd(weight, hn::LoadU(d, buffer.red.data() + at), light.x);
+        light.y = hn::MulAdd(weight, hn::LoadU(d, buffer.green.data() + at), light.y);
+        light.z = hn::MulAdd(weight, hn::LoadU(d, buffer.blue.data() + at), light.z);
+        through = hn::Mul(through, hn::Sub(one, opacity));
+    }
+    return light;
+}
+
 void CompositeWhole(const ShadeBuffer& buffer, std::span<const CompositeRun> runs, ShadeBuffer& row) {
     const hn::ScalableTag<float> d;
-    const auto one = hn::Set(d, 1.0F);
     for (const CompositeRun& run : runs) {
         const std::size_t total = static_cast<std::size_t>(run.to - run.from);
         for (std::size_t i = 0; i < total; i += hn::Lanes(d)) {
-            auto r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), through = one;
             const std::size_t column = static_cast<std::size_t>(run.from) + i;
-            for (const CompositeLayer& layer : run.layers) {
-                const std::size_t at = layer.sample(column);
-                const auto opacity = hn::LoadU(d, buffer.opacity.data() + at);
-                const auto weight = hn::Mul(through, opacity);
-                r = hn::MulAdd(weight, hn::LoadU(d, buffer.red.data() + at), r);
-                g = hn::MulAdd(weight, hn::LoadU(d, buffer.green.data() + at), g);
-                b = hn::MulAdd(weight, hn::LoadU(d, buffer.blue.data() + at), b);
-                through = hn::Mul(through, hn::Sub(one, opacity));
-            }
-            hn::StoreU(r, d, row.red.data() + column);
-            hn::StoreU(g, d, row.green.data() + column);
-            hn::StoreU(b, d, row.blue.data() + column);
+            const auto light = laid_over(d, buffer, run.layers, column);
+            hn::StoreU(light.x, d, row.red.data() + column);
+            hn::StoreU(light.y, d, row.green.data() + column);
+            hn::StoreU(light.z, d, row.blue.data() + column);
         }
     }
 }
@@ -180,34 +189,52 @@ void AverageSquares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     average(upper.blue, lower.blue);
 }
 
-/// Samples i to i + Lanes(d) of a row, as pixels R G B 255.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3<V> light_of(D d, const ShadeBuffer& row, std::size_t i) {
+    return {hn::LoadU(d, row.red.data() + i), hn::LoadU(d, row.green.data() + i), hn::LoadU(d, row.blue.data() + i)};
+}
+
+/// Linear light as pixels R G B 255.
 template <class D, class DI = hn::RebindToSigned<D>>
-HWY_INLINE hn::Vec<DI> packed_pixels(D d, const ShadeBuffer& row, std::size_t i) {
+HWY_INLINE hn::Vec<DI> packed_pixels(D d, const Vec3<hn::Vec<D>>& light) {
     const DI di;
     // The upper bits, those of kToNearest, cancel in the sum.
-    const auto rounded = [&](const std::vector<float>& plane) HWY_ATTR {
-        return hn::BitCast(di, hn::Add(srgb_steps(d, hn::LoadU(d, plane.data() + i)), hn::Set(d, kToNearest)));
+    const auto rounded = [&](hn::Vec<D> linear) HWY_ATTR {
+        return hn::BitCast(di, hn::Add(srgb_steps(d, linear), hn::Set(d, kToNearest)));
     };
     constexpr std::uint32_t kWhole = 0x4B400000U, kOpaque = 0xFF000000U;
     constexpr auto kRest = static_cast<std::int32_t>(kOpaque - kWhole - (kWhole << 8) - (kWhole << 16));
-    const auto rg = hn::Add(rounded(row.red), hn::ShiftLeft<8>(rounded(row.green)));
-    return hn::Add(hn::Add(rg, hn::Set(di, kRest)), hn::ShiftLeft<16>(rounded(row.blue)));
+    const auto rg = hn::Add(rounded(light.x), hn::ShiftLeft<8>(rounded(light.y)));
+    return hn::Add(hn::Add(rg, hn::Set(di, kRest)), hn::ShiftLeft<16>(rounded(light.z)));
 }
 
-void PackSrgb8(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT rgba) {
+void PackSrgb8(const ShadeBuffer& buffer, std::span<const CompositeRun> runs, const ShadeBuffer& row, int count,
+               std::uint8_t* HWY_RESTRICT rgba) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
     const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
-    alignas(64) std::int32_t pixels[64];
-    for (std::size_t i = 0; i < total; i += n) {
-        const auto packed = packed_pixels(d, row, i);
-        if (i + n <= total) {
-            hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
-        } else {
-            hn::Store(packed, di, pixels);
-            std::copy_n(reinterpret_cast<const std::uint8_t*>(pixels), 4 * (total - i), rgba + 4 * i);
+    // What is written past the end of some columns the next overwrite.
+    const auto pack = [&](std::size_t from, std::size_t to, auto&& light) HWY_ATTR {
+        for (std::size_t i = from; i < to; i += n) {
+            const auto packed = packed_pixels(d, light(i));
+            if (i + n <= total) {
+                hn::StoreU(packed, di, reinterpret_cast<std::int32_t*>(rgba + 4 * i));
+            } else {
+                alignas(64) std::int32_t pixels[64];
+                hn::Store(packed, di, pixels);
+                std::copy_n(reinterpret_cast<const std::uint8_t*>(pixels), 4 * (total - i), rgba + 4 * i);
+            }
         }
+    };
+    const auto of_row = [&](std::size_t i) HWY_ATTR { return light_of(d, row, i); };
+    std::size_t done = 0;
+    for (const CompositeRun& run : runs) {
+        const auto from = static_cast<std::size_t>(run.from), to = static_cast<std::size_t>(run.to);
+        pack(done, from, of_row);
+        pack(from, to, [&](std::size_t i) HWY_ATTR { return laid_over(d, buffer, run.layers, i); });
+        done = to;
     }
+    pack(done, total, of_row);
 }
 
 void PackSrgb8Doubled(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTRICT upper,
@@ -217,7 +244,7 @@ void PackSrgb8Doubled(const ShadeBuffer& row, int count, std::uint8_t* HWY_RESTR
     const std::size_t n = hn::Lanes(d), total = static_cast<std::size_t>(count);
     alignas(64) std::int32_t pixels[128];
     for (std::size_t i = 0; i < total; i += 2 * n) {
-        const auto packed = packed_pixels(d, row, i / 2);
+        const auto packed = packed_pixels(d, light_of(d, row, i / 2));
         if (i + 2 * n <= total) {
             hn::StoreInterleaved2(packed, packed, di, reinterpret_cast<std::int32_t*>(upper + 4 * i));
         } else {
@@ -255,8 +282,10 @@ void composite_before_whole(const ShadeBuffer& buffer, std::span<const Composite
 void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower) {
     HWY_DYNAMIC_DISPATCH(AverageSquares)(upper, count, lower);
 }
-void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba) {
-    HWY_DYNAMIC_DISPATCH(PackSrgb8)(row, count, rgba);
+void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba) { pack_srgb8(row, {}, row, count, rgba); }
+void pack_srgb8(const ShadeBuffer& buffer, std::span<const CompositeRun> runs, const ShadeBuffer& row, int count,
+                std::uint8_t* rgba) {
+    HWY_DYNAMIC_DISPATCH(PackSrgb8)(buffer, runs, row, count, rgba);
 }
 void pack_srgb8_doubled(const ShadeBuffer& row, int count, std::uint8_t* upper, std::uint8_t* lower) {
     HWY_DYNAMIC_DISPATCH(PackSrgb8Doubled)(row, count, upper, lower);

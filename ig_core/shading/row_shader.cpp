@@ -16,6 +16,13 @@ namespace {
 /// A surface hidden for no more columns than this is shaded on through: a new vector costs more.
 constexpr int kLongestIdleRun = 12;
 
+/// Rows are shaded together until they have so many layers or samples: few jobs leave vectors unfilled, and what many
+/// write does not stay in the cache.
+constexpr std::size_t kManyLayers = 256, kManySamples = 32768;
+
+/// A whole run of so many columns is packed straight from its samples: shorter ones do not fill a vector.
+constexpr int kLongRun = 16;
+
 /// Where a span is sampled: on the mean of its sub-scan lines, between the means of their ends, which a convex outline
 /// has inside it; but no farther in than half a column from its outermost end, where edges are nearly level.
 struct SampleRange {
@@ -120,7 +127,7 @@ const FramePaint* paint_of(const FramePaints& paints, const Surface& surface) {
     switch (surface.kind) {
         case Surface::Kind::quadric:
         case Surface::Kind::face:
-            return &paints.objects[surface.outline->object];
+            return &paints.objects[surface.index];
         case Surface::Kind::marking:
             return &paints.markings[surface.index];
         case Surface::Kind::ground:
@@ -152,9 +159,9 @@ void fetch_outline(const Surface& surface) {
 }
 
 /// The numbers of one job on its row. Those that its kind of surface has no use for are left as they are.
-void set_job(const FrameShading& frame, const PixelRow& row, const RowSpan& span, const ShadeJob& job, ShadeInput& in) {
-    const SampleRange range = sample_range(row, span);
-    const Surface& surface = span.surface;
+void set_job(const FrameShading& frame, const PixelRow& row, const ShadeJob& job, ShadeInput& in) {
+    const SampleRange range = sample_range(row, *job.span);
+    const Surface& surface = job.span->surface;
     in.count = job.to - job.from;
     in.buffer = job.buffer;
     in.paint = job.paint;
@@ -200,11 +207,23 @@ bool all_numbers(const ShadeBuffer& row, int columns) {
 }  // namespace
 #endif
 
-void RowShader::plan(const RowSweep& sweep) {
+void RowShader::add(const PixelRow& row, const RowSweep& sweep) {
+    AddedRow& added = added_[added_count_++];
+    added.pixels = &row, added.sweep = &sweep;
+    plan(added);
+}
+
+bool RowShader::is_full() const {
+    return added_count_ == kMostRows || layer_count_ >= kManyLayers || sample_count_ >= kManySamples;
+}
+
+void RowShader::plan(AddedRow& row) {
+    const RowSweep& sweep = *row.sweep;
+    const auto row_index = static_cast<std::uint8_t>(&row - added_.data());
     last_of_span_.assign(sweep.spans.size(), 0);
-    job_of_layer_.resize(sweep.layers.size());
-    if (jobs_.size() <= sweep.layers.size()) jobs_.resize(sweep.layers.size() + 1);
-    std::uint32_t count = 0;
+    row.job_of_layer.resize(sweep.layers.size());
+    if (jobs_.size() <= job_count_ + sweep.layers.size()) jobs_.resize(job_count_ + sweep.layers.size() + 1);
+    auto count = static_cast<std::uint32_t>(job_count_);
     for (const LayerRun& run : sweep.runs) {
         const int from = run.from, to = run.to;
         const std::uint32_t last_layer = run.first_layer + run.layer_count;
@@ -214,21 +233,23 @@ void RowShader::plan(const RowSweep& sweep) {
             // Nothing could foresee whether a job begins here, so no branch: the next one is written down in any case.
             const bool begins = from >= static_cast<int>(last >> 32);
             const std::uint32_t job = begins ? count : static_cast<std::uint32_t>(last);
-            jobs_[count].span = span, jobs_[count].from = from;
+            jobs_[count].span = &sweep.spans[span], jobs_[count].from = from, jobs_[count].row = row_index;
             jobs_[job].to = to;
             last_of_span_[span] = static_cast<LastJob>(to + kLongestIdleRun + 1) << 32 | job;
-            job_of_layer_[i] = job;
+            row.job_of_layer[i] = job;
             count += begins ? 1 : 0;
         }
+        sample_count_ += static_cast<std::size_t>(to - from) * run.layer_count;
     }
+    layer_count_ += sweep.layers.size();
     job_count_ = count;
 }
 
-void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
+void RowShader::order_jobs(const FrameShading& frame) {
     std::array<std::uint32_t, kBins + 1> first_in_bin{};
     const std::span<ShadeJob> jobs = std::span(jobs_).first(job_count_);
     for (ShadeJob& job : jobs) {
-        const Surface& surface = sweep.spans[job.span].surface;
+        const Surface& surface = job.span->surface;
         job.paint = paint_of(*frame.paints, surface);
         job.bin = bin_of(surface, job);
         ++first_in_bin[job.bin + 1U];
@@ -236,63 +257,65 @@ void RowShader::order_jobs(const FrameShading& frame, const RowSweep& sweep) {
     for (std::size_t i = 1; i < first_in_bin.size(); ++i) first_in_bin[i] += first_in_bin[i - 1];
     order_.resize(jobs.size());
     for (std::uint32_t i = 0; i < job_count_; ++i) order_[first_in_bin[jobs_[i].bin]++] = i;
-    std::uint32_t used = 0;
-    for (const std::uint32_t i : order_) {
-        jobs_[i].buffer = used;
-        used += static_cast<std::uint32_t>(jobs_[i].to - jobs_[i].from);
-    }
-    buffer_.resize(used + kShadePadding);
-    work_.stretches += jobs.size();
-    work_.samples += used;
 }
 
-void RowShader::lay_out(const PixelRow& row, const RowSweep& sweep) {
+void RowShader::shade_samples(const FrameShading& frame) {
+    order_jobs(frame);
+    std::uint32_t samples = 0;
+    const ShadeRow common = shade_row(frame, *added_[0].pixels);
+    inputs_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        constexpr std::size_t kTurnsAhead = 8;
+        fetch_outline(jobs_[order_[std::min(i + kTurnsAhead, order_.size() - 1)]].span->surface);
+        ShadeJob& job = jobs_[order_[i]];
+        job.buffer = samples;
+        samples += static_cast<std::uint32_t>(job.to - job.from);
+        set_job(frame, *added_[job.row].pixels, job, inputs_[i]);
+        inputs_[i].row = &common;
+    }
+    buffer_.resize(samples + kShadePadding);
+    work_.stretches += order_.size();
+    work_.samples += samples;
+    work_.terms += shade(inputs_, buffer_);
+}
+
+void RowShader::lay_out(const FrameShading& frame, const AddedRow& row) {
+    const RowSweep& sweep = *row.sweep;
     layers_.resize(sweep.layers.size());
     for (std::size_t i = 0; i < layers_.size(); ++i) {
-        const ShadeJob& job = jobs_[job_of_layer_[i]];
-        layers_[i] = {job.buffer - static_cast<std::uint32_t>(job.from), 0, &sweep.spans[sweep.layers[i]]};
+        const ShadeJob& job = jobs_[row.job_of_layer[i]];
+        layers_[i] = {job.buffer - static_cast<std::uint32_t>(job.from), 0, job.span};
     }
-    whole_.clear(), before_whole_.clear(), partial_.clear();
+    packed_.clear(), whole_.clear(), before_whole_.clear(), partial_.clear();
+    const bool samples_are_pixels = pixels_across(frame.quality.shading) == 1.0;
     for (const LayerRun& run : sweep.runs) {
         const std::span<CompositeLayer> layers = std::span(layers_).subspan(run.first_layer, run.layer_count);
         const CompositeRun laid_out{run.from, run.to, layers};
         if (!run.partial) {
-            whole_.push_back(laid_out);
+            (samples_are_pixels && run.to - run.from >= kLongRun ? packed_ : whole_).push_back(laid_out);
             continue;
         }
         work_.edge_pixels += static_cast<std::uint64_t>(run.to - run.from);
-        if (side_by_side_before_whole(row, run, layers)) {
+        if (side_by_side_before_whole(*row.pixels, run, layers)) {
             before_whole_.push_back(laid_out);
         } else {
-            group(row, layers);
+            group(*row.pixels, layers);
             partial_.push_back(laid_out);
         }
     }
 }
 
-void RowShader::draw(const FrameShading& frame, const PixelRow& row, const RowSweep& sweep) {
-    plan(sweep);
-    order_jobs(frame, sweep);
-    const ShadeRow common = shade_row(frame, row);
-    inputs_.resize(order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        constexpr std::size_t kTurnsAhead = 8;
-        fetch_outline(sweep.spans[jobs_[order_[std::min(i + kTurnsAhead, order_.size() - 1)]].span].surface);
-        const ShadeJob& job = jobs_[order_[i]];
-        set_job(frame, row, sweep.spans[job.span], job, inputs_[i]);
-        inputs_[i].row = &common;
-    }
-    work_.terms += shade(inputs_, buffer_);
-
-    lay_out(row, sweep);
-    row_.resize(static_cast<std::size_t>(row.columns) + kShadePadding);
+void RowShader::composite(const FrameShading& frame, const AddedRow& row) {
+    const PixelRow& pixels = *row.pixels;
+    lay_out(frame, row);
+    row_.resize(static_cast<std::size_t>(pixels.columns) + kShadePadding);
     composite_whole(buffer_, whole_, row_);
-    composite_before_whole(buffer_, before_whole_, row.sub_lines, row_);
-    composite_partial(buffer_, partial_, row.sub_lines, row_);
-    assert(all_numbers(row_, row.columns));
+    composite_before_whole(buffer_, before_whole_, pixels.sub_lines, row_);
+    composite_partial(buffer_, partial_, pixels.sub_lines, row_);
+    assert(all_numbers(row_, pixels.columns));
 }
 
-void RowShader::write(int columns, std::uint8_t* rgba) const { pack_srgb8(row_, columns, rgba); }
+void RowShader::write(int columns, std::uint8_t* rgba) const { pack_srgb8(buffer_, packed_, row_, columns, rgba); }
 
 void RowShader::write_doubled(int columns, std::uint8_t* upper, std::uint8_t* lower) const {
     pack_srgb8_doubled(row_, columns, upper, lower);

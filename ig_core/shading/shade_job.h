@@ -54,17 +54,18 @@ struct FramePaint {
 
 /// Columns [from, to) of one surface, to be shaded once per pixel into `buffer` (offset of column `from`).
 struct ShadeJob {
-    std::uint32_t span = 0;
+    const RowSpan* span = nullptr;
     int from = 0, to = 0;
     std::uint32_t buffer = 0;
-    const FramePaint* paint = nullptr;  ///< null: sky or light
+    std::uint8_t row = 0;               ///< which of those that are shaded together
     std::uint8_t bin = 0;               ///< jobs of one bin are shaded together
+    const FramePaint* paint = nullptr;  ///< null: sky or light
 };
 
 /// So many samples of a surface are shaded in a vector of no more.
 inline constexpr int kFewSamples = 8;
 
-/// What all jobs of a row have in common.
+/// What all jobs of a picture have in common.
 struct ShadeRow {
     const FrameLight* light = nullptr;
     bool smooth_stretches = true;  ///< interpolate what changes slowly

@@ -33,7 +33,7 @@ struct Surface {
     Kind kind = Kind::sky;
     bool opaque = true;
     int surface = 0;             ///< surface id in the object
-    std::uint32_t index = 0;     ///< of the outline in the frame's list, of the ground polygon or the cloud deck
+    std::uint32_t index = 0;     ///< of the object, the ground polygon, the light or the cloud deck
     std::uint32_t priority = 0;  ///< wins a tie in depth if smaller: file order, then markings, ground, decks, sky
     const Outline* outline = nullptr;  ///< for quadrics and faces
     const SeenLight* light = nullptr;  ///< for lights

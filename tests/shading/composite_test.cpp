@@ -253,3 +253,42 @@ TEST_CASE("a run of edge pixels leaves the columns beside it as they are") {
         }
     });
 }
+
+TEST_CASE("whole runs packed straight from their samples show what they do composited first") {
+    CAPTURE(seed());
+    on_every_target([] {
+        for (int trial = 0; trial < trials(100); ++trial) {
+            CAPTURE(trial);
+            Randomness random(trial);
+            const auto light = [&] { return static_cast<float>(random.between(0, 1)); };
+            const auto columns = static_cast<std::size_t>(1 + random.below(200));
+            std::vector<Sample> samples(4 * columns);
+            for (Sample& sample : samples) sample = {light(), light(), light(), random.chance(0.5) ? 1.0F : light()};
+            const ShadeBuffer buffer = buffer_of(samples);
+            ShadeBuffer row, composited;
+            row.resize(columns + kShadePadding), composited.resize(columns + kShadePadding);
+            for (std::size_t i = 0; i < columns; ++i)
+                row.red[i] = light(), row.green[i] = light(), row.blue[i] = light();
+            ShadeBuffer expected = row;
+            std::vector<std::vector<CompositeLayer>> layers;
+            std::vector<CompositeRun> runs;
+            layers.reserve(columns);
+            for (std::size_t from = static_cast<std::size_t>(random.below(3)); from < columns;) {
+                const std::size_t to = std::min(columns, from + 1 + static_cast<std::size_t>(random.below(60)));
+                std::vector<CompositeLayer>& own = layers.emplace_back();
+                for (int i = random.below(4); i >= 0; --i)
+                    own.push_back(layer_of(static_cast<std::size_t>(i) * columns, 0, 0, nullptr));
+                runs.push_back({static_cast<int>(from), static_cast<int>(to), own});
+                composite_whole(buffer, std::span(runs).last(1), composited);
+                for (std::size_t i = from; i < to; ++i)
+                    expected.red[i] = composited.red[i], expected.green[i] = composited.green[i],
+                    expected.blue[i] = composited.blue[i];
+                from = to + static_cast<std::size_t>(random.chance(0.5) ? 0 : random.below(30));
+            }
+            std::vector<std::uint8_t> straight(4 * columns + 8, 77), in_two_steps = straight;
+            pack_srgb8(buffer, runs, row, static_cast<int>(columns), straight.data());
+            pack_srgb8(expected, static_cast<int>(columns), in_two_steps.data());
+            CHECK(straight == in_two_steps);
+        }
+    });
+}

@@ -24,18 +24,9 @@ struct Row {
     RowSweep sweep;
 };
 
-void make_row(Randomness& random, Row& made) {
-    made.seen.u = 1;
-    made.row.columns = 1 + random.below(700);
-    made.row.left = random.between(-2, 0);
-    made.row.column_step = random.between(0.5, 2) / made.row.columns;
+void add_runs(Randomness& random, Row& made) {
     made.row.z[0] = random.between(0, 1);
-    made.frame.paints = &made.paints;
-    made.frame.lights = &made.lights;
-    made.frame.light.horizon = {0.75F, 0.5F, 0.25F};
-    made.frame.light.zenith = {0.0F, 0.125F, 1.0F};
     for (std::uint32_t i = 0; i < kSpans; ++i) {
-        made.lights[i].colour = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
         RowSpan& span = made.sweep.spans.emplace_back();
         span.surface.kind = random.chance(0.7) ? Surface::Kind::light : Surface::Kind::sky;
         span.surface.index = i;
@@ -52,6 +43,20 @@ void make_row(Randomness& random, Row& made) {
         made.sweep.runs.push_back({from, to, first, static_cast<std::uint32_t>(layers.size()) - first, false});
         from = to;
     }
+}
+
+void make_row(Randomness& random, Row& made) {
+    made.seen.u = 1;
+    made.row.columns = 1 + random.below(700);
+    made.row.left = random.between(-2, 0);
+    made.row.column_step = random.between(0.5, 2) / made.row.columns;
+    made.frame.paints = &made.paints;
+    made.frame.lights = &made.lights;
+    made.frame.light.horizon = {0.75F, 0.5F, 0.25F};
+    made.frame.light.zenith = {0.0F, 0.125F, 1.0F};
+    for (LightPoint& light : made.lights)
+        light.colour = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+    add_runs(random, made);
 }
 
 /// Columns that a span is shaded on, and in how many stretches: asked column by column.
@@ -100,18 +105,38 @@ TEST_CASE("every column of a row shows the first layer of its run, shaded where 
     for (int trial = 0; trial < trials(300); ++trial) {
         CAPTURE(trial);
         Randomness random(trial);
-        Row made;
-        make_row(random, made);
-        shader.draw(made.frame, made.row, made.sweep);
-        std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(made.row.columns));
-        shader.write(made.row.columns, rgba.data());
+        std::vector<Row> rows(1 + static_cast<std::size_t>(random.below(8)));
+        make_row(random, rows[0]);
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            rows[i].lights = rows[0].lights, rows[i].seen = rows[0].seen, rows[i].row = rows[0].row;
+            rows[i].frame.light = rows[0].frame.light;
+            rows[i].row.row = static_cast<int>(i);
+            add_runs(random, rows[i]);
+        }
+        const auto columns = static_cast<std::size_t>(rows[0].row.columns);
         double most_off = 0;
-        for (const LayerRun& run : made.sweep.runs)
-            for (int column = run.from; column < run.to; ++column)
-                for (int i = 0; i < 3; ++i) {
-                    const double expected = srgb8(colour(made, made.sweep.layers[run.first_layer], column)[i]);
-                    most_off = std::max(most_off, std::abs(expected - rgba[static_cast<std::size_t>(4 * column + i)]));
-                }
+        std::vector<int> drawn;
+        const auto compare = [&](const PixelRow& pixels) {
+            const Row& made = rows[static_cast<std::size_t>(pixels.row)];
+            drawn.push_back(pixels.row);
+            std::vector<std::uint8_t> rgba(4 * columns);
+            shader.write(pixels.columns, rgba.data());
+            for (const LayerRun& run : made.sweep.runs)
+                for (int column = run.from; column < run.to; ++column)
+                    for (int i = 0; i < 3; ++i) {
+                        const double expected = srgb8(colour(made, made.sweep.layers[run.first_layer], column)[i]);
+                        const std::uint8_t shown = rgba[static_cast<std::size_t>(4 * column + i)];
+                        most_off = std::max(most_off, std::abs(expected - shown));
+                    }
+        };
+        std::vector<int> expected_rows;
+        for (const Row& made : rows) {
+            expected_rows.push_back(made.row.row);
+            shader.add(made.row, made.sweep);
+            if (shader.is_full()) shader.draw(rows[0].frame, compare);
+        }
+        shader.draw(rows[0].frame, compare);
+        CHECK(drawn == expected_rows);
         CHECK(most_off < 0.6);
     }
 }
@@ -124,7 +149,8 @@ TEST_CASE("a surface is shaded on through columns where it is hidden if they are
         Randomness random(trial);
         Row made;
         make_row(random, made);
-        shader.draw(made.frame, made.row, made.sweep);
+        shader.add(made.row, made.sweep);
+        shader.draw(made.frame, [](const PixelRow&) {});
         Shaded expected;
         for (std::uint32_t span = 0; span < kSpans; ++span) {
             const Shaded own = shaded(made.sweep, span);

@@ -92,11 +92,12 @@ HWY_INLINE void composite_cells(const ShadeBuffer& buffer, const CompositeRun& r
             if (layer.group != group) std::copy_n(through, kCells, at_group);
             group = layer.group;
             const RowSpan& span = *layer.span;
+            const bool covers_all = (span.inner_from <= run.from) & (span.inner_to >= run.to);
             const std::size_t sample = layer.sample(static_cast<std::size_t>(column));
             const Cells alpha = hn::Set(d, buffer.opacity[sample]);
             Cells sum = zero, left = zero;
             for (std::size_t i = 0; i < kCells; i += kCellLanes) {
-                const Cells cover = cell_cover(i, lines, span, column);
+                const Cells cover = covers_all ? one : cell_cover(i, lines, span, column);
                 const Cells weight = hn::Mul(hn::Mul(cover, alpha), hn::Load(d, at_group + i));
                 const Cells rest = hn::Max(zero, hn::Sub(hn::Load(d, through + i), weight));
                 hn::Store(rest, d, through + i);

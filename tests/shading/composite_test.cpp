@@ -32,6 +32,13 @@ RowSpan span_of(std::vector<std::pair<double, double>> lines) {
     return span;
 }
 
+/// Tells a span which columns it covers whole on so many sub-scan lines.
+void set_inner(RowSpan& span, int lines) {
+    const auto end = static_cast<std::ptrdiff_t>(lines);
+    span.inner_from = static_cast<int>(std::ceil(*std::max_element(span.from.begin(), span.from.begin() + end)));
+    span.inner_to = static_cast<int>(std::floor(*std::min_element(span.to.begin(), span.to.begin() + end)));
+}
+
 /// A layer whose sample of column `first` is the buffer's `sample`.
 CompositeLayer layer_of(std::size_t sample, int first, std::uint32_t group, const RowSpan* span) {
     return {static_cast<std::uint32_t>(sample) - static_cast<std::uint32_t>(first), group, span};
@@ -170,12 +177,14 @@ TEST_CASE("every pixel of a run is the sum of its cells, for any number of sub-s
                                        random.chance(0.5) ? 1.0F : static_cast<float>(random.between(0, 1))});
                 // Lines beyond the row's hold whatever was there before.
                 std::vector<std::pair<double, double>> ends(kMaxSubScanLines, {std::nan(""), std::nan("")});
-                const bool beside_last = i > 0 && random.chance(0.3);
+                const bool beside_last = i > 0 && random.chance(0.3), everywhere = !beside_last && random.chance(0.3);
                 for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line) {
                     const double from = beside_last ? spans.back().to[line] : random.between(-1, 8);
                     ends[line] = {from, from + random.between(0, 6)};
+                    if (everywhere) ends[line] = {0, 8};
                 }
                 spans.push_back(span_of(ends));
+                set_inner(spans.back(), lines);
                 groups.push_back(beside_last ? groups.back() : static_cast<std::uint32_t>(i));
             }
             std::vector<CompositeLayer> layers;

@@ -99,7 +99,7 @@ double srgb8(double linear) {
 
 }  // namespace
 
-TEST_CASE("every column of a row shows the first layer of its run, shaded where that column is") {
+TEST_CASE("every column of a row shows the first layer of its run, by itself and among rows shaded together") {
     CAPTURE(seed());
     RowShader shader;  // one for all rows, long ones and short ones
     for (int trial = 0; trial < trials(300); ++trial) {

@@ -232,7 +232,10 @@ void PackSrgb8(const ShadeBuffer& buffer, std::span<const CompositeRun> runs, co
     for (const CompositeRun& run : runs) {
         const auto from = static_cast<std::size_t>(run.from), to = static_cast<std::size_t>(run.to);
         pack(done, from, of_row);
-        pack(from, to, [&](std::size_t i) HWY_ATTR { return laid_over(d, buffer, run.layers, i); });
+        if (run.layers.size() == 1)  // which is opaque
+            pack(from, to, [&](std::size_t i) HWY_ATTR { return light_of(d, buffer, run.layers[0].sample(i)); });
+        else
+            pack(from, to, [&](std::size_t i) HWY_ATTR { return laid_over(d, buffer, run.layers, i); });
         done = to;
     }
     pack(done, total, of_row);

@@ -42,7 +42,7 @@ void average_squares(const ShadeBuffer& upper, int count, ShadeBuffer& lower);
 
 /// Linear light to 8-bit sRGB, R G B 255, `count` pixels of a row. Error against exact rounding below 0.02 of a step.
 void pack_srgb8(const ShadeBuffer& row, int count, std::uint8_t* rgba);
-/// The same; whole runs that are not in `row` are laid over one another here.
+/// The same; whole runs that are not in `row`, the last layer of each opaque, are laid over one another here.
 void pack_srgb8(const ShadeBuffer& buffer, std::span<const CompositeRun> runs, const ShadeBuffer& row, int count,
                 std::uint8_t* rgba);
 /// The same where every sample fills 2 x 2 pixels: `count` pixels of two rows, the last column once if that is odd.

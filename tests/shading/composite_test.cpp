@@ -272,7 +272,9 @@ TEST_CASE("whole runs packed straight from their samples show what they do compo
             const auto light = [&] { return static_cast<float>(random.between(0, 1)); };
             const auto columns = static_cast<std::size_t>(1 + random.below(200));
             std::vector<Sample> samples(4 * columns);
-            for (Sample& sample : samples) sample = {light(), light(), light(), random.chance(0.5) ? 1.0F : light()};
+            // The first of them are the last layer's, which is opaque.
+            for (std::size_t i = 0; i < samples.size(); ++i)
+                samples[i] = {light(), light(), light(), i < columns || random.chance(0.5) ? 1.0F : light()};
             const ShadeBuffer buffer = buffer_of(samples);
             ShadeBuffer row, composited;
             row.resize(columns + kShadePadding), composited.resize(columns + kShadePadding);

@@ -73,11 +73,15 @@ HWY_INLINE Mask follow_changes(const Outline& outline, const ZBand& band, Number
 
 void BoundariesOnLines(const Outline& outline, const ZBand& band, const ColumnScale& scale, BoundaryLanes& lines) {
     const Number x0 = outline.solid.x0, origin = scale.left, step = scale.columns_per_x;
+    bool all_hold = true;
     for (std::size_t line = 0; line < lines.count; line += hn::Lanes(D())) {
         const auto take = [&](std::uint32_t i, Number xi)
                               HWY_ATTR { ((x0 + xi - origin) * step).store(lines.columns[i], line); };
-        either(follow_changes(outline, band, {lines.zeta, line}, take), 0.0, 1.0).store(lines.wrong, line);
+        const Mask in_order = follow_changes(outline, band, {lines.zeta, line}, take);
+        either(in_order, 0.0, 1.0).store(lines.wrong, line);
+        all_hold &= hn::AllTrue(D(), hn::Or(in_order, hn::Not(hn::FirstN(D(), lines.count - line))));
     }
+    lines.all_hold = all_hold;
 }
 
 bool BoundariesOnLine(const Outline& outline, const ZBand& band, double zeta, double* xi) {

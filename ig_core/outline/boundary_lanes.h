@@ -34,12 +34,13 @@ struct BoundaryLanes {
     std::size_t count = 0;  ///< lines that are asked for
     Lines zeta;
     std::vector<Lines> columns;  ///< where each of the band's changes is; none lies left of the one before
-    Lines wrong;                 ///< other than 0 where the band's order does not hold: to be solved by itself
+    bool all_hold = true;        ///< whether the band's order holds on all lines, as it does but for rounding
+    Lines wrong;                 ///< else other than 0 where it does not: to be solved by itself
 
     BoundaryLanes() {}  // NOLINT(modernize-use-equals-default): what is not asked for need not be zeroed
 };
 
-/// Fills in columns and wrong, from count and zeta; all lines lie in `band`.
+/// Fills in columns, all_hold and wrong, from count and zeta; all lines lie in `band`.
 void boundaries_on_lines(const Outline& outline, const ZBand& band, const ColumnScale& scale, BoundaryLanes& lines);
 
 /// The same of one line, in xi: whether the band's order holds on it. Room for band.count.

@@ -97,6 +97,7 @@ void ObjectSpans::set_rows(std::span<const PixelRow> rows) {
 
 void ObjectSpans::start(const Outline& outline, std::uint32_t index, bool opaque) {
     outline_ = &outline, index_ = index, opaque_ = opaque;
+    shallow_ = is_shallow(outline.near_u, outline.far_u);
     band_ = kHighestBand;
     for (Run& run : runs_) run.first = run.last = 0;
     // What the first row will ask for, one after the other.
@@ -122,8 +123,8 @@ void ObjectSpans::solve_limb(Run& run) const {
     for (std::size_t i = 0; i < lines.count; ++i) {
         from[i] = (from[i] - left) * scale;
         to[i] = (to[i] - left) * scale;
-        lines.wrong[i] = 0.0;
     }
+    lines.all_hold = true;
     run.changes = kLimbAlone;
 }
 
@@ -145,13 +146,13 @@ void ObjectSpans::solve_from(std::size_t line) {
     const double next_at = band != nullptr ? band->zeta_from : zeta > outline_->zeta_to ? outline_->zeta_to : zeta;
     lines.count = 0;
     do {
-        lines.wrong[lines.count] = 0.0;
         lines.zeta[lines.count++] = zeta;
         if (++line == end) break;
         zeta = z_[line] - z0;
     } while (zeta > next_at);
     run.last = line;
     run.changes = {};
+    lines.all_hold = true;
     if (band == nullptr) return;
     boundaries_on_lines(*outline_, *band, {rows_[0].left, 1.0 / rows_[0].column_step}, lines);
     run.changes = std::span(outline_->changes).subspan(band->first, band->count);
@@ -164,7 +165,7 @@ void ObjectSpans::add_from(const Run& run, std::size_t row, std::vector<RowSpan>
         RowSpan& span = spans.emplace_back();
         if (fit_columns(rows_[row], &run.lines.columns[i][first], &run.lines.columns[i + 1][first], span)) {
             span.surface = surface_of(*outline_, index_, opaque_, run.changes[i].surface);
-            bound_depth(rows_[row], span);
+            if (!shallow_) bound_depth(rows_[row], span);
         } else {
             spans.pop_back();
         }
@@ -194,6 +195,7 @@ void ObjectSpans::add(std::size_t row, std::vector<RowSpan>& spans) {
     const std::size_t first = row * lines_, last = first + lines_;
     while (runs_[newest_].last < last) solve_from(std::max(first, runs_[newest_].last));
     const auto holds = [&](const Run& run) {
+        if (run.lines.all_hold) return true;
         for (std::size_t line = std::max(first, run.first); line < std::min(last, run.last); ++line)
             if (run.lines.wrong[line - run.first] != 0.0) return false;
         return true;

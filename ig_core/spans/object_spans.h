@@ -45,7 +45,7 @@ class ObjectSpans {
 
     const Outline* outline_ = nullptr;
     std::uint32_t index_ = 0;
-    bool opaque_ = true;
+    bool opaque_ = true, shallow_ = false;
     std::span<const PixelRow> rows_;
     std::size_t lines_ = 1;  // of a row
     std::vector<double> z_;  // of all their lines

@@ -21,14 +21,18 @@ inline constexpr double kSameDepth = 1e-13;
 
 /// What most orders can be told by: bounds of 1/k, and the object.
 struct DepthBounds {
-    double near_u, far_u;
+    double beyond_near_u;  ///< what is nearer than this is in front, by more than rounding
+    double far_u;
     const Outline* outline;
 };
+inline DepthBounds depth_bounds(const Surface& surface) {
+    return {(1.0 + kSameDepth) * surface.near_u, surface.far_u, surface.outline};
+}
 
 /// Order of one surface relative to another where that tells.
 inline std::optional<Priority> order_by_bounds(const DepthBounds& a, const DepthBounds& b) {
-    if (a.far_u > (1.0 + kSameDepth) * b.near_u) return Priority::front;
-    if (b.far_u > (1.0 + kSameDepth) * a.near_u) return Priority::behind;
+    if (a.far_u > b.beyond_near_u) return Priority::front;
+    if (b.far_u > a.beyond_near_u) return Priority::behind;
     if (a.outline != nullptr && a.outline == b.outline) return Priority::front;  // they lie side by side
     return std::nullopt;
 }

@@ -80,8 +80,7 @@ bool fit_columns(const PixelRow& row, const double* line_from, const double* lin
 }
 
 void bound_depth(const PixelRow& row, RowSpan& span) {
-    constexpr double kShallow = 1.1;
-    if (span.surface.near_u < kShallow * span.surface.far_u) return;
+    if (is_shallow(span.surface.near_u, span.surface.far_u)) return;
     std::size_t first = 0, last = static_cast<std::size_t>(row.sub_lines) - 1;
     while (!(span.from[first] < span.to[first])) ++first;
     while (!(span.from[last] < span.to[last])) --last;

@@ -49,6 +49,8 @@ inline bool fit_columns(const PixelRow& row, RowSpan& span) {
 /// (What the lines between could add is less than a sub-scan line high.) What is shallow to begin with is left as it
 /// is.
 void bound_depth(const PixelRow& row, RowSpan& span);
+/// Whether bounds of 1/k are so close that nothing is gained by narrower ones.
+inline bool is_shallow(double near_u, double far_u) { return near_u < 1.1 * far_u; }
 
 /// The next of the row's spans, empty on all sub-scan lines.
 inline RowSpan& empty_span(const PixelRow& row, std::vector<RowSpan>& spans) {

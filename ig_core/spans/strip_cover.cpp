@@ -21,7 +21,7 @@ using V = hn::Vec<D>;
 using Bounds = StripCover::Bounds;
 constexpr int kBlock = StripCover::kBlock;
 
-void Note(const StripCover::Covered& covered, int from, int to, Bounds* columns, Bounds* blocks) {
+void Note(const StripCover::Covered& covered, int from, int to, Bounds* columns, Bounds* blocks, std::uint8_t* parted) {
     const D d;
     const DI di;
     for (std::size_t row = 0; row < StripCover::kRows; row += hn::Lanes(d)) {
@@ -44,27 +44,36 @@ void Note(const StripCover::Covered& covered, int from, int to, Bounds* columns,
                 note(blocks[block], whole);
                 if (hn::AllFalse(di, hn::AndNot(whole, any_of(column, end)))) column = end;
             }
+            if (column < end && parted[block] == 0) {
+                std::fill_n(columns + block * kBlock, kBlock, Bounds{});
+                parted[block] = 1;
+            }
             for (; column < end; ++column) note(columns[column], all_of(column, column + 1));
         }
     }
 }
 
-StripCover::Rows Open(const Bounds* columns, const Bounds* blocks, int from, int to, float near_u) {
+StripCover::Rows Open(const Bounds* columns, const Bounds* blocks, const std::uint8_t* parted, int from, int to,
+                      float near_u) {
     const D d;
     const V u = hn::Set(d, near_u);
     StripCover::Rows open = 0;
     for (std::size_t row = 0; row < StripCover::kRows; row += hn::Lanes(d)) {
         auto hidden = hn::Gt(hn::Set(d, std::numeric_limits<float>::infinity()), hn::Zero(d));
-        const auto look_at = [&](int column) HWY_ATTR {
-            const V of_column = hn::LoadU(d, &columns[column][row]),
-                    of_block = hn::LoadU(d, &blocks[column / kBlock][row]);
-            hidden = hn::And(hidden, hn::Gt(hn::Max(of_column, of_block), u));
+        const auto look_at = [&](int first, int last, int block) HWY_ATTR {
+            const V of_block = hn::LoadU(d, &blocks[block][row]);
+            const auto by_block = hn::Gt(of_block, u);
+            if (parted[block] == 0) hidden = hn::And(hidden, by_block);
+            if (parted[block] == 0 || hn::AllTrue(d, by_block)) return;
+            for (int column = first; column < last; ++column)
+                hidden = hn::And(hidden, hn::Gt(hn::Max(hn::LoadU(d, &columns[column][row]), of_block), u));
         };
-        look_at((from + to) / 2);  // what is seen is mostly seen there
+        const int middle = (from + to) / 2;  // what is seen is mostly seen there
+        look_at(middle, middle + 1, middle / kBlock);
         for (int column = from; column < to && !hn::AllFalse(d, hidden);) {
             const int block = column / kBlock, end = std::min(to, (block + 1) * kBlock);
-            if (hn::AllTrue(d, hn::Gt(hn::LoadU(d, &blocks[block][row]), u))) column = end;
-            for (; column < end; ++column) look_at(column);
+            look_at(column, end, block);
+            column = end;
         }
         std::uint8_t bits = 0;
         hn::StoreMaskBits(d, hn::Not(hidden), &bits);
@@ -104,17 +113,19 @@ void StripCover::Covered::set(std::size_t row, int from_column, int to_column, d
 void StripCover::add(const Covered& covered) {
     if (covered.first >= covered.last) return;
     if (empty_) {
-        columns_.assign(static_cast<std::size_t>(width_), Bounds{});
-        blocks_.assign(static_cast<std::size_t>(width_ / kBlock) + 1, Bounds{});
+        const std::size_t blocks = static_cast<std::size_t>(width_ / kBlock) + 1;
+        if (columns_.size() < blocks * kBlock) columns_.resize(blocks * kBlock);
+        blocks_.assign(blocks, Bounds{});
+        parted_.assign(blocks, 0);
         empty_ = false;
     }
-    HWY_DYNAMIC_DISPATCH(Note)(covered, covered.first, covered.last, columns_.data(), blocks_.data());
+    HWY_DYNAMIC_DISPATCH(Note)(covered, covered.first, covered.last, columns_.data(), blocks_.data(), parted_.data());
 }
 
 StripCover::Rows StripCover::open(const Columns& columns, double near_u) const {
     if (columns.from >= columns.to) return 0;
     if (empty_) return kAllRows;
-    return HWY_DYNAMIC_DISPATCH(Open)(columns_.data(), blocks_.data(), columns.from, columns.to,
+    return HWY_DYNAMIC_DISPATCH(Open)(columns_.data(), blocks_.data(), parted_.data(), columns.from, columns.to,
                                       static_cast<float>(near_u * kMore));
 }
 

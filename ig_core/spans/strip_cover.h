@@ -44,8 +44,9 @@ class StripCover {
   private:
     // Zero where anything may be seen. Of a column both bounds hold, so that wide spans are noted by the block.
     std::vector<Bounds> columns_, blocks_;
+    std::vector<std::uint8_t> parted_;  // by block: whether its columns have bounds of their own, else they are not set
     int width_ = 0;
-    bool empty_ = true;  // and then the bounds are not yet set
+    bool empty_ = true;  // and then none are set
 };
 
 }  // namespace quadrig

@@ -1,16 +1,12 @@
 #include "ig_core/spans/sweep.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 #include "ig_core/spans/row_spans.h"
 
 namespace quadrig {
 namespace {
-
-/// From so many spans on, vectors sort them faster.
-constexpr std::size_t kMany = 48;
 
 constexpr std::uint32_t kNoSpan = std::numeric_limits<std::uint32_t>::max();
 
@@ -24,10 +20,10 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
 }  // namespace
 
 RowSweep::Extent RowSweep::extent_of(const RowSpan& span) {
-    DepthBounds depth{span.surface.near_u, span.surface.far_u, span.surface.outline};
+    DepthBounds depth = depth_bounds(span.surface);
     // Lights have rules of their own.
     if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0, nullptr};
-    return {span.outer_from, span.inner_from, span.inner_to, span.outer_to, span.surface.opaque, depth};
+    return {span.outer_from, {span.inner_from, span.inner_to, span.outer_to}, span.surface.opaque, depth};
 }
 
 std::optional<Priority> RowSweep::order_of_whole(std::uint32_t index, std::uint32_t other) const {
@@ -44,11 +40,10 @@ void RowSweep::cut(std::uint32_t first_order, std::uint32_t other, const PixelRo
     for (std::size_t i = 0; i < crossing_pieces_.size(); ++i) {
         RowSpan& piece = crossing_pieces_[i];
         if (piece.splits == 0 || !fit_columns(row, piece)) continue;
-        const Start start = start_of(piece.outer_from, static_cast<std::uint32_t>(spans.size()));
+        starts_.add_last(piece.outer_from);
         spans.push_back(piece);
         extents_.push_back(extent_of(piece));
         pieces_.push_back({first_order, last_order, {other, i % 2 == 0 ? Priority::front : Priority::behind}});
-        starts_.insert(std::upper_bound(starts_.begin(), starts_.end(), start, std::greater<>()), start);
     }
 }
 
@@ -56,8 +51,8 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
     const Extent& own = extents_[index];
     const auto covered_by = [&](std::uint32_t other) {
         const Extent& cover = extents_[other];
-        if (cover.inner_from <= own.outer_from && own.outer_to <= cover.inner_to) return true;
-        return cover.outer_to >= own.outer_to && covers(spans[other], spans[index], row);
+        if (cover.inner_from() <= own.outer_from && own.outer_to() <= cover.inner_to()) return true;
+        return cover.outer_to() >= own.outer_to() && covers(spans[other], spans[index], row);
     };
     const auto meets = [&](std::uint32_t other) { return overlap(spans[index], spans[other], row); };
     const auto first_order = static_cast<std::uint32_t>(orders_.size());
@@ -100,43 +95,43 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
 }
 
 int RowSweep::emit(int from, int to) {
-    const auto first = static_cast<std::uint32_t>(layers.size());
+    const Extent* const extents = extents_.data();
+    std::uint32_t* const active = active_.data();
+    const std::size_t count = active_.size();
     bool partial = false;
     int first_end = to, hidden_to = from;
     std::size_t shown = 0;
-    while (shown < active_.size()) {
-        const std::uint32_t index = active_[shown++];
-        const Extent& span = extents_[index];
-        layers.push_back(index);
-        const bool whole = span.covers(from);
-        partial = partial || !whole;
-        to = std::min(to, span.changes_after(from));
-        first_end = std::min(first_end, span.outer_to);
-        if (whole && span.opaque) {
-            hidden_to = span.inner_to;
+    while (shown < count) {
+        const Extent& span = extents[active[shown++]];
+        const std::size_t changed = span.changes_until(from);
+        const bool whole = changed == 1;
+        partial |= !whole;
+        to = std::min(to, span.changes[changed]);
+        first_end = std::min(first_end, span.outer_to());
+        if (whole & span.opaque) {
+            hidden_to = span.inner_to();
             break;
         }
+    }
+    const auto same_as = [&](const LayerRun& before) {
+        return before.layer_count == shown && before.partial == partial &&
+               std::equal(active, active + shown, layers.begin() + before.first_layer);
+    };
+    if (!runs.empty() && same_as(runs.back())) {
+        runs.back().to = to;
+    } else {
+        const auto first = static_cast<std::uint32_t>(layers.size()), layer_count = static_cast<std::uint32_t>(shown);
+        runs.push_back({from, to, first, layer_count, partial});
+        for (std::size_t i = 0; i < shown; ++i) layers.push_back(active[i]);
     }
     // What ends before the opaque span in front of it does will not be seen again. Nothing could foresee what is kept:
     // no branch.
     std::size_t kept = first_end <= to ? 0 : shown;
-    for (std::size_t i = kept; i < active_.size(); ++i) {
-        const std::uint32_t index = active_[kept] = active_[i];
-        kept += extents_[index].outer_to > (i < shown ? to : hidden_to) ? 1 : 0;
+    for (std::size_t i = kept; i < count; ++i) {
+        const std::uint32_t index = active[kept] = active[i];
+        kept += extents[index].outer_to() > (i < shown ? to : hidden_to) ? 1 : 0;
     }
     active_.resize(kept);
-    const auto count = static_cast<std::uint32_t>(layers.size()) - first;
-    if (!runs.empty()) {
-        LayerRun& last = runs.back();
-        if (last.to == from && last.layer_count == count && last.partial == partial &&
-            std::equal(layers.begin() + last.first_layer, layers.begin() + last.first_layer + count,
-                       layers.begin() + first)) {
-            last.to = to;
-            layers.resize(first);
-            return to;
-        }
-    }
-    runs.push_back({from, to, first, count, partial});
     return to;
 }
 
@@ -144,30 +139,20 @@ void RowSweep::sweep(const PixelRow& row) {
     runs.clear();
     layers.clear();
     active_.clear();
-    starts_.clear();
     orders_.clear();
     pieces_.clear();
     pairs = 0;
-    extents_.clear();
     first_piece_ = static_cast<std::uint32_t>(spans.size());
     depths_.start(row);
-    for (std::uint32_t i = 0; i < spans.size(); ++i) {
-        spans[i].depths = -1;
-        starts_.push_back(start_of(spans[i].outer_from, i));
-        extents_.push_back(extent_of(spans[i]));
+    starts_.clear(row.columns, spans.size());
+    extents_.resize(spans.size());
+    for (std::uint32_t i = first_piece_; i-- > 0;) {
+        starts_.add_first(spans[i].outer_from, i);
+        extents_[i] = extent_of(spans[i]);
     }
-    if (starts_.size() < kMany)
-        std::sort(starts_.begin(), starts_.end(), std::greater<>());
-    else
-        sort_many_(starts_.data(), starts_.size(), hwy::SortDescending());
-    int column = 0;
-    while (column < row.columns) {
-        while (!starts_.empty() && column_of(starts_.back()) <= column) {
-            const auto index = static_cast<std::uint32_t>(starts_.back());
-            starts_.pop_back();
-            insert(index, row);
-        }
-        column = emit(column, starts_.empty() ? row.columns : std::min(column_of(starts_.back()), row.columns));
+    for (int column = 0; column < row.columns;) {
+        for (std::uint32_t i = starts_.first(column); i != SpanStarts::kNone; i = starts_.next(i)) insert(i, row);
+        column = emit(column, starts_.next_column(column));
     }
 }
 

@@ -1,13 +1,14 @@
 /// The scan-line sweep: spans of a pixel row in, visible runs of columns out (Gardner 1984, 2.1).
 #pragma once
 
-#include <hwy/contrib/sort/vqsort.h>
-
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "ig_core/spans/priority.h"
+#include "ig_core/spans/span_starts.h"
 
 namespace quadrig {
 
@@ -21,7 +22,8 @@ struct LayerRun {
 /// Sweeps one pixel row at a time; keeps its memory from row to row.
 class RowSweep {
   public:
-    /// The row's spans, the sky among them, go in by `spans`; pieces of spans that cross are added to it.
+    /// The row's spans, the sky among them, go in by `spans`, as they were made; pieces of spans that cross are added
+    /// to it.
     void sweep(const PixelRow& row);
 
     std::vector<RowSpan> spans;
@@ -35,21 +37,20 @@ class RowSweep {
     /// not be seen again.
     int emit(int from, int to);
 
-    /// Where a span begins: one number, which is quicker to sort than two.
-    using Start = std::uint64_t;
-    static Start start_of(int column, std::uint32_t span) { return static_cast<Start>(column) << 32 | span; }
-    static int column_of(Start start) { return static_cast<int>(start >> 32); }
-    std::vector<Start> starts_;  // by falling column, then span: the next one is last
-    hwy::Sorter sort_many_;
+    SpanStarts starts_;
     /// What every step asks of a span, close together.
     struct Extent {
-        int outer_from, inner_from, inner_to, outer_to;
+        int outer_from;
+        std::array<int, 3> changes;  ///< where it begins and ceases to cover columns whole, and where it ends
         bool opaque;
         DepthBounds depth;
-        [[nodiscard]] bool covers(int column) const { return inner_from <= column && column < inner_to; }
-        /// Where it next begins or ceases to cover columns whole, or ends.
-        [[nodiscard]] int changes_after(int column) const {
-            return column < inner_from ? inner_from : column < inner_to ? inner_to : outer_to;
+        [[nodiscard]] int inner_from() const { return changes[0]; }
+        [[nodiscard]] int inner_to() const { return changes[1]; }
+        [[nodiscard]] int outer_to() const { return changes[2]; }
+        /// How many of its changes do not lie behind a column it touches: it covers that one whole where this is 1.
+        /// Nothing could foresee it: no branch.
+        [[nodiscard]] std::size_t changes_until(int column) const {
+            return static_cast<std::size_t>(inner_from() <= column) + static_cast<std::size_t>(inner_to() <= column);
         }
     };
     static Extent extent_of(const RowSpan& span);

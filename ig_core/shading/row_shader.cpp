@@ -197,12 +197,15 @@ void set_job(const FrameShading& frame, const PixelRow& row, const ShadeJob& job
 
 #ifndef NDEBUG
 namespace {
-/// Whether nothing is infinite or NaN.
-bool all_numbers(const ShadeBuffer& row, int columns) {
+/// Whether nothing is infinite or NaN from one place to another.
+bool all_numbers(const ShadeBuffer& light, int from, int to) {
     const auto finite = [&](const std::vector<float>& plane) {
-        return std::all_of(plane.begin(), plane.begin() + columns, [](float x) { return std::isfinite(x); });
+        return std::all_of(plane.begin() + from, plane.begin() + to, [](float x) { return std::isfinite(x); });
     };
-    return finite(row.red) && finite(row.green) && finite(row.blue);
+    return finite(light.red) && finite(light.green) && finite(light.blue);
+}
+bool all_numbers(const ShadeBuffer& row, const std::vector<CompositeRun>& runs) {
+    return std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return all_numbers(row, run.from, run.to); });
 }
 }  // namespace
 #endif
@@ -277,6 +280,7 @@ void RowShader::shade_samples(const FrameShading& frame) {
     work_.stretches += order_.size();
     work_.samples += samples;
     work_.terms += shade(inputs_, buffer_);
+    assert(all_numbers(buffer_, 0, static_cast<int>(samples)));
 }
 
 void RowShader::lay_out(const FrameShading& frame, const AddedRow& row) {
@@ -312,7 +316,7 @@ void RowShader::composite(const FrameShading& frame, const AddedRow& row) {
     composite_whole(buffer_, whole_, row_);
     composite_before_whole(buffer_, before_whole_, pixels.sub_lines, row_);
     composite_partial(buffer_, partial_, pixels.sub_lines, row_);
-    assert(all_numbers(row_, pixels.columns));
+    assert(all_numbers(row_, whole_) && all_numbers(row_, before_whole_) && all_numbers(row_, partial_));
 }
 
 void RowShader::write(int columns, std::uint8_t* rgba) const { pack_srgb8(buffer_, packed_, row_, columns, rgba); }

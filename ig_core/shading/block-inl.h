@@ -8,6 +8,9 @@
 #define QUADRIG_BLOCK_INL_H_
 #endif
 
+#include <algorithm>
+#include <numbers>
+
 #include "ig_core/shading/interpolation-inl.h"
 #include "ig_core/shading/surface_point-inl.h"
 #include "ig_core/shading/texture-inl.h"
@@ -89,12 +92,11 @@ struct BlockProbe {
         const int terms = term_count(in);
         int count = 0;
         for (; count < terms; ++count) {
-            const float w = in.paint->texture->terms[static_cast<std::size_t>(count)].turns_per_metre;
-            const float w2 = 4.0F * 9.8696044F * w * w;
-            // A term that has been filtered away needs no samples.
-            const bool slow = w2 * reach2 <= kLargestPhaseStep * kLargestPhaseStep,
-                       gone = w2 * least_pixel2 >= kFilteredAway;
-            if (!slow && !gone) break;
+            const FrameTexture::Term& term = in.paint->texture->terms[static_cast<std::size_t>(count)];
+            const float w = 2.0F * std::numbers::pi_v<float> * term.turns_per_metre;
+            // One that has been filtered away needs no samples.
+            const float amplitude = std::max(0.0F, term.amplitude - term.fade * least_pixel2);
+            if (cubic_error(amplitude, w * w * reach2) > kLargestError) break;
         }
         return count;
     }

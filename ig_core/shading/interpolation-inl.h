@@ -18,9 +18,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Strides of samples, columns.
 constexpr std::size_t kFineStride = 4, kCoarseStride = 16;
-/// Largest growth of a sine's argument between samples, rad rms. A cubic through four samples is then wrong by 3/128 of
-/// its fourth power, 5 % of that sine; of the slower ones far less.
-constexpr float kLargestPhaseStep = 1.2F;
+/// What a cubic through four samples of a sine is wrong by at most, `step2` being the squared growth of its argument
+/// from one to the next, rad^2 (the remainder of Lagrange's interpolation).
+constexpr float cubic_error(float amplitude, float step2) { return 3.0F / 128.0F * amplitude * step2 * step2; }
+/// So much of a factor of Eq 15 a term may be wrong by; one of half the frequency is wrong by a sixteenth of that.
+constexpr float kLargestError = 0.006F;
 constexpr std::size_t kBlockIntervals = kMostSamples / kCoarseStride;
 /// Samples of the fine stride of a block and beside it.
 constexpr std::size_t kFineCount = kCoarseStride / kFineStride * (kBlockIntervals + 1);

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <random>
 #include <thread>
 
@@ -180,7 +181,15 @@ TEST_CASE("Over TCP one host at a time is heard, may come back, and others are l
 
 TEST_CASE("A host's name is looked up when its link is opened, at either end, in the family of its reply") {
     using namespace std::chrono_literals;
-    // No name server need know this one: the system's table of hosts does, in any case.
+    // Longer than a label may be: no name server is asked.
+    const std::string nobody(64, 'x');
+    CHECK_THROWS_WITH(open_link(parse_link_url("cigi://" + nobody + ":1")), Catch::Contains("host '" + nobody + "': "));
+
+    // No name server need know this one: the system's table of hosts does, where there is one.
+    if (!std::filesystem::exists("/etc/hosts")) {
+        WARN("this machine has no /etc/hosts: no name looked up");
+        return;
+    }
     const auto link = open_link(parse_link_url("fdm://LocalHost:0"));
     link->start(session_options(link->url(), {}));
     const auto host = open_sender(parse_link_url("fdm://LOCALHOST:" + std::to_string(link->port())));
@@ -189,8 +198,4 @@ TEST_CASE("A host's name is looked up when its link is opened, at either end, in
     CHECK(link->statistics().frames == 1);
     CHECK(link->url().text == "fdm://LocalHost:0");
     CHECK(looked_up(parse_link_url("cigi://LocalHost:0?reply=127.0.0.1:9")).address == "127.0.0.1");
-
-    // Longer than a label may be: no name server is asked.
-    const std::string nobody(64, 'x');
-    CHECK_THROWS_WITH(open_link(parse_link_url("cigi://" + nobody + ":1")), Catch::Contains("host '" + nobody + "': "));
 }

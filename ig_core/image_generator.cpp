@@ -38,6 +38,7 @@ struct RowWorker {
     ObjectSpans object;
     StripCover cover;
     std::array<RowSweep, kStripRows> sweeps;  // of a strip's rows
+    RowSweeper sweeper;
     RowShader shader;
     std::chrono::nanoseconds outline_time{0}, sweep_time{0}, draw_time{0};
     std::uint64_t span_count = 0, pair_count = 0;
@@ -279,7 +280,7 @@ void ImageGenerator::Impl::sweep_rows(const View& view, const Quality& quality, 
         for (std::size_t r = 0; r < used; ++r) {
             RowSweep& sweep = own.sweeps[r];
             own.span_count += sweep.spans.size();
-            sweep.sweep(rows[r]);
+            own.sweeper.sweep(rows[r], sweep);
             own.pair_count += sweep.pairs;
             const auto swept = Clock::now();
             draw(rows[r], sweep, own);

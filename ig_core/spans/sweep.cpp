@@ -19,14 +19,14 @@ bool covers(const RowSpan& cover, const RowSpan& span, const PixelRow& row) {
 
 }  // namespace
 
-RowSweep::Extent RowSweep::extent_of(const RowSpan& span) {
+RowSweeper::Extent RowSweeper::extent_of(const RowSpan& span) {
     DepthBounds depth = depth_bounds(span.surface);
     // Lights have rules of their own.
     if (span.surface.light != nullptr) depth = {std::numeric_limits<double>::infinity(), 0.0, nullptr};
     return {span.outer_from, {span.inner_from, span.inner_to, span.outer_to}, span.surface.opaque, depth};
 }
 
-std::optional<Priority> RowSweep::order_of_whole(std::uint32_t index, std::uint32_t other) const {
+std::optional<Priority> RowSweeper::order_of_whole(std::uint32_t index, std::uint32_t other) const {
     if (index < first_piece_) return std::nullopt;
     const Piece& piece = pieces_[index - first_piece_];
     const auto first = orders_.begin() + piece.first_order, last = orders_.begin() + piece.last_order;
@@ -35,19 +35,20 @@ std::optional<Priority> RowSweep::order_of_whole(std::uint32_t index, std::uint3
     return found == last ? piece.at_cut.priority : found->priority;
 }
 
-void RowSweep::cut(std::uint32_t first_order, std::uint32_t other, const PixelRow& row) {
+void RowSweeper::cut(std::uint32_t first_order, std::uint32_t other, const PixelRow& row) {
     const auto last_order = static_cast<std::uint32_t>(orders_.size());
     for (std::size_t i = 0; i < crossing_pieces_.size(); ++i) {
         RowSpan& piece = crossing_pieces_[i];
         if (piece.splits == 0 || !fit_columns(row, piece)) continue;
         starts_.add_last(piece.outer_from);
-        spans.push_back(piece);
+        out_->spans.push_back(piece);
         extents_.push_back(extent_of(piece));
         pieces_.push_back({first_order, last_order, {other, i % 2 == 0 ? Priority::front : Priority::behind}});
     }
 }
 
-void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
+void RowSweeper::insert(std::uint32_t index, const PixelRow& row) {
+    std::vector<RowSpan>& spans = out_->spans;
     const Extent& own = extents_[index];
     const auto covered_by = [&](std::uint32_t other) {
         const Extent& cover = extents_[other];
@@ -64,7 +65,7 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
             priority = order_of_whole(index, other);
             if (!priority) {
                 priority = priority_of(spans[index], spans[other], row, depths_, crossing_pieces_);
-                ++pairs;
+                ++out_->pairs;
             }
             if (*priority == Priority::crossing) return cut(first_order, other, row);
             orders_.push_back({other, *priority});
@@ -94,7 +95,9 @@ void RowSweep::insert(std::uint32_t index, const PixelRow& row) {
     active_[position] = index;
 }
 
-int RowSweep::emit(int from, int to) {
+int RowSweeper::emit(int from, int to) {
+    std::vector<LayerRun>& runs = out_->runs;
+    std::vector<std::uint32_t>& layers = out_->layers;
     const Extent* const extents = extents_.data();
     std::uint32_t* const active = active_.data();
     const std::size_t count = active_.size();
@@ -135,13 +138,15 @@ int RowSweep::emit(int from, int to) {
     return to;
 }
 
-void RowSweep::sweep(const PixelRow& row) {
-    runs.clear();
-    layers.clear();
+void RowSweeper::sweep(const PixelRow& row, RowSweep& out) {
+    out_ = &out;
+    out.runs.clear();
+    out.layers.clear();
+    out.pairs = 0;
     active_.clear();
     orders_.clear();
     pieces_.clear();
-    pairs = 0;
+    const std::vector<RowSpan>& spans = out.spans;
     first_piece_ = static_cast<std::uint32_t>(spans.size());
     depths_.start(row);
     starts_.clear(row.columns, spans.size());

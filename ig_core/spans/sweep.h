@@ -19,17 +19,20 @@ struct LayerRun {
     bool partial = false;                            ///< some layer covers its pixels in part
 };
 
-/// Sweeps one pixel row at a time; keeps its memory from row to row.
-class RowSweep {
-  public:
-    /// The row's spans, the sky among them, go in by `spans`, as they were made; pieces of spans that cross are added
-    /// to it.
-    void sweep(const PixelRow& row);
-
-    std::vector<RowSpan> spans;
+/// One pixel row's spans, and what is seen of them.
+struct RowSweep {
+    std::vector<RowSpan> spans;  ///< the sky among them; the sweep adds pieces of those that cross
     std::vector<LayerRun> runs;
     std::vector<std::uint32_t> layers;  ///< indices into `spans`
     std::uint64_t pairs = 0;            ///< of spans that bounds of their depths did not put in order
+};
+
+/// Sweeps one pixel row at a time; keeps its memory from row to row. One for all rows, since little memory stays in the
+/// nearest cache.
+class RowSweeper {
+  public:
+    /// From the row's spans, as they were made, to its runs.
+    void sweep(const PixelRow& row, RowSweep& out);
 
   private:
     void insert(std::uint32_t index, const PixelRow& row);
@@ -37,6 +40,7 @@ class RowSweep {
     /// not be seen again.
     int emit(int from, int to);
 
+    RowSweep* out_ = nullptr;
     SpanStarts starts_;
     /// What every step asks of a span, close together.
     struct Extent {
@@ -54,7 +58,7 @@ class RowSweep {
         }
     };
     static Extent extent_of(const RowSpan& span);
-    std::vector<Extent> extents_;        // parallel to `spans`
+    std::vector<Extent> extents_;        // parallel to the spans
     std::vector<std::uint32_t> active_;  // spans that the sweep is over, front to back
 
     /// Order of a span relative to another, found while it was put among the active ones.

@@ -95,6 +95,7 @@ void sweep_of_rows(benchmark::State& state) {
     for (std::size_t i = 0; i < solids.size(); ++i)
         make_outline(solids[i], static_cast<std::uint32_t>(i), view.eye, view.eye_from_scene, rows_of(view, kSubLines),
                      outlines[i]);
+    RowSweeper sweeper;
     RowSweep sweep;
     std::int64_t spans = 0, rows = 0;
     for (auto _ : state)
@@ -113,7 +114,7 @@ void sweep_of_rows(benchmark::State& state) {
                 add_object_spans(outlines[i], static_cast<std::uint32_t>(i), opaque, row, band, sweep.spans);
             }
             add_plane_spans({}, {}, row, sweep.spans);
-            sweep.sweep(row);
+            sweeper.sweep(row, sweep);
             spans += static_cast<std::int64_t>(sweep.spans.size()), ++rows;
         }
     state.counters["us_per_row"] =

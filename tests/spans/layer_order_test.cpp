@@ -41,7 +41,7 @@ struct Wood {
         for (int r = 0; r < kRows; ++r) middles.push_back(image.z(r + 0.5));
     }
 
-    void look_along(int r, RowSweep& sweep) {
+    void look_along(int r, RowSweeper& sweeper, RowSweep& sweep) {
         row.row = r;
         const double height = row.row_step / row.sub_lines;
         for (int line = 0; line < row.sub_lines; ++line)
@@ -53,7 +53,7 @@ struct Wood {
             add_object_spans(outlines[i], i, opaque[i], row, band, sweep.spans);
         }
         add_plane_spans({}, {}, row, sweep.spans);
-        sweep.sweep(row);
+        sweeper.sweep(row, sweep);
     }
 
     /// What a ray meets, front to back, as far as the first tree without holes.
@@ -106,9 +106,10 @@ TEST_CASE("in a wood whose trees pass through one another layers lie as a ray me
     for (int trial = 0; trial < trials(60, 20); ++trial) {
         Randomness random(trial);
         Wood wood(random, 5 + random.below(40), 1 + random.below(3));
+        RowSweeper sweeper;
         RowSweep sweep;
         for (int r = random.below(4); r < kRows; r += 4) {
-            wood.look_along(r, sweep);
+            wood.look_along(r, sweeper, sweep);
             for (const RowSpan& span : sweep.spans) cut += span.splits > 0;
             for (const LayerRun& run : sweep.runs) {
                 const auto line = static_cast<std::size_t>(random.below(wood.row.sub_lines));

@@ -10,6 +10,7 @@ using namespace quadrig::test;
 
 TEST_CASE("a row of up to a thousand spans shows in every column what is nearest there") {
     CAPTURE(seed());
+    RowSweeper sweeper;
     RowSweep sweep;
     for (int trial = 0; trial < trials(60); ++trial) {
         CAPTURE(trial);
@@ -37,7 +38,7 @@ TEST_CASE("a row of up to a thousand spans shows in every column what is nearest
             const int to = from + 1 + static_cast<int>(random.log_between(1, 300));
             add(from, std::min(to, row.columns), random.between(0.01, 1.0));
         }
-        sweep.sweep(row);
+        sweeper.sweep(row, sweep);
         int column = 0, wrong = 0;
         for (const LayerRun& run : sweep.runs) {
             REQUIRE(run.from == column);

@@ -1,11 +1,17 @@
 /// Visibility: outline set-up, cuts on rows, the sweep; and how many rows needed the direct solution.
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "config/camera_path.h"
 #include "config/scene_file.h"
 #include "ig_core/spans/object_spans.h"
 #include "ig_core/spans/row_spans.h"
 #include "ig_core/spans/sweep.h"
+#include "ig_core/strip_index.h"
 #include "ig_core/view.h"
 #include "tests/hard_cases/catalogue.h"
 #include "tests/ig_core/randomness.h"
@@ -16,6 +22,7 @@ using namespace quadrig::test;
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
+static_assert(kHeight % kStripRows == 0);
 
 View view_of(const config::Camera& camera) {
     return {camera.eye, eye_from_scene_rotation(camera.attitude),
@@ -82,41 +89,52 @@ void cuts_on_a_row(benchmark::State& state) {
 }
 BENCHMARK(cuts_on_a_row)->ArgName("planes")->Arg(0)->Arg(6);
 
-/// Spans and sweep of every eighth row of a demo scene.
+/// Spans and sweep of all rows of a demo scene, strip by strip as in a frame; but nothing is hidden beforehand.
 void sweep_of_rows(benchmark::State& state) {
     const std::string folder = QUADRIG_SOURCE_DIR "/config/scenes/";
     const Scene scene = config::read_scene(folder + "takeoff.toml");
     const View view =
         view_of(config::read_camera_path(folder + "takeoff_cameras.json")[static_cast<std::size_t>(state.range(0))]);
+    const ImagePlane& image = view.image;
     constexpr int kSubLines = 2;
-    std::vector<Solid> solids;
-    for (const Object& object : scene.objects) solids.push_back(make_solid(object));
-    std::vector<Outline> outlines(solids.size());
-    for (std::size_t i = 0; i < solids.size(); ++i)
-        make_outline(solids[i], static_cast<std::uint32_t>(i), view.eye, view.eye_from_scene, rows_of(view, kSubLines),
-                     outlines[i]);
+    std::vector<Outline> outlines(scene.objects.size());
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+        make_outline(make_solid(scene.objects[i]), static_cast<std::uint32_t>(i), view.eye, view.eye_from_scene,
+                     rows_of(view, kSubLines), outlines[i]);
+    StripIndex on_strips;
+    on_strips.sort(strips_of(image), outlines.size(), [&](std::size_t i) {
+        const double z0 = outlines[i].solid.z0;
+        return strips_between(image, z0 + outlines[i].zeta_from, z0 + outlines[i].zeta_to);
+    });
+    std::vector<PixelRow> rows_of_image(kHeight);
+    for (int r = 0; r < kHeight; ++r) {
+        PixelRow& row = rows_of_image[static_cast<std::size_t>(r)];
+        row.row = r, row.sub_lines = kSubLines, row.columns = kWidth;
+        row.left = image.left, row.column_step = image.column_step, row.row_step = image.row_step;
+        for (int i = 0; i < kSubLines; ++i) row.z[static_cast<std::size_t>(i)] = image.z(r + (i + 0.5) / kSubLines);
+    }
+    ObjectSpans object;
+    std::array<RowSweep, kStripRows> sweeps;
     RowSweeper sweeper;
-    RowSweep sweep;
-    std::int64_t spans = 0, rows = 0;
+    std::int64_t spans = 0;
     for (auto _ : state)
-        for (int r = 0; r < kHeight; r += 8) {
-            PixelRow row;
-            row.row = r, row.sub_lines = kSubLines, row.columns = kWidth;
-            row.left = view.image.left, row.column_step = view.image.column_step;
-            for (int i = 0; i < kSubLines; ++i)
-                row.z[static_cast<std::size_t>(i)] = view.image.z(r + (i + 0.5) / kSubLines);
-            sweep.spans.clear();
-            for (std::size_t i = 0; i < outlines.size(); ++i) {
-                const double z = row.z[0] - outlines[i].solid.z0;
-                if (z + 1e-2 < outlines[i].zeta_from || z - 1e-2 > outlines[i].zeta_to) continue;
-                const bool opaque = !scene.objects[i].paint.translucence;
-                BandPlace band = kHighestBand;
-                add_object_spans(outlines[i], static_cast<std::uint32_t>(i), opaque, row, band, sweep.spans);
+        for (int strip = 0; strip < strips_of(image); ++strip) {
+            const std::span rows = std::span<const PixelRow>(rows_of_image)
+                                       .subspan(static_cast<std::size_t>(strip * kStripRows), kStripRows);
+            for (RowSweep& sweep : sweeps) sweep.spans.clear();
+            object.set_rows(rows);
+            for (const std::uint32_t i : on_strips.on(strip)) {
+                object.start(outlines[i], i, !scene.objects[i].paint.translucence);
+                const ObjectSpans::Rows may_show = object.that_may_show();
+                for (std::size_t r = may_show.first; r < may_show.last; ++r) object.add(r, sweeps[r].spans);
             }
-            add_plane_spans({}, {}, row, sweep.spans);
-            sweeper.sweep(row, sweep);
-            spans += static_cast<std::int64_t>(sweep.spans.size()), ++rows;
+            for (std::size_t r = 0; r < rows.size(); ++r) {
+                add_plane_spans({}, {}, rows[r], sweeps[r].spans);
+                sweeper.sweep(rows[r], sweeps[r]);
+                spans += static_cast<std::int64_t>(sweeps[r].spans.size());
+            }
         }
+    const std::int64_t rows = state.iterations() * kHeight;
     state.counters["us_per_row"] =
         benchmark::Counter(static_cast<double>(rows) * 1e-6, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["ns_per_span"] = benchmark::Counter(static_cast<double>(spans) * 1e-9,

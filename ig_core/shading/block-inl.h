@@ -36,12 +36,12 @@ HWY_INLINE Setting<V> setting_at(D d, const ShadeInput& in, V length, const Surf
     const FrameLight& light = *in.row->light;
     const FramePaint& paint = *in.paint;
     const V facing = hn::Max(hn::Zero(d), hn::Mul(dot(point.normal, splat(d, light.to_sun)), point.inverse_length));
-    const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, hn::Set(d, light.ambient));
+    const V lit = hn::MulAdd(hn::Set(d, 1.0F - light.ambient), facing, splat(d, light.ambient));
     Setting<V> setting{lit, one, one};
-    if (light.haze) setting.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), hn::Set(d, light.extinction)));
+    if (light.haze) setting.kept = exp2_minus(d, hn::Mul(hn::Mul(point.depth, length), splat(d, light.extinction)));
     if (paint.translucent)
         setting.threshold = hn::MulAdd(hn::Set(d, paint.limb_threshold - paint.threshold),
-                                       hn::Sub(one, limb_share(d, in, point)), hn::Set(d, paint.threshold));
+                                       hn::Sub(one, limb_share(d, in, point)), splat(d, paint.threshold));
     return setting;
 }
 

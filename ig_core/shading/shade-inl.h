@@ -32,7 +32,7 @@ HWY_INLINE Appearance<V> painted(D d, const ShadeInput& in, const Setting<V>& se
     Appearance<V> seen{setting.lit, setting.kept, hn::Set(d, 1.0F)};
     if (paint.texture != nullptr) {
         const V t = sums.value(d, i);
-        seen.light = hn::MulAdd(hn::Set(d, paint.texture_weight), hn::Sub(t, setting.lit), setting.lit);
+        seen.light = hn::MulAdd(splat(d, paint.texture_weight), hn::Sub(t, setting.lit), setting.lit);
         if (paint.translucent) {
             // What filtering took away still blurs the edge of a hole: a ramp of width s has the variance s^2/12.
             const V ramp2 = hn::MulAdd(hn::Set(d, 12.0F), sums.lost_variance(d, *paint.texture, i),
@@ -109,7 +109,7 @@ struct SampledColumns {
     [[nodiscard]] HWY_INLINE V at(D d, const ShadeInput& in, std::size_t i) const {
         const V middle = hn::Set(d, static_cast<float>(first + kPixels * i) + 0.5F * static_cast<float>(kPixels - 1));
         return hn::Clamp(hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(kPixels)), middle),
-                         hn::Set(d, in.least_column), hn::Set(d, in.most_column));
+                         splat(d, in.least_column), splat(d, in.most_column));
     }
 };
 

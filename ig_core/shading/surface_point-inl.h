@@ -45,24 +45,24 @@ struct Entry {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V quadric_xi(D d, const ShadeInput& in, V column) {
-    return hn::MulAdd(column, hn::Set(d, in.row->xi_step), hn::Set(d, in.xi));
+    return hn::MulAdd(column, splat(d, in.row->xi_step), splat(d, in.xi));
 }
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V quadric_a(D d, const ShadeInput& in, V xi) {
-    return hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.a[2]), hn::Set(d, in.a[1])), hn::Set(d, in.a[0]));
+    return hn::MulAdd(xi, hn::MulAdd(xi, splat(d, in.a[2]), splat(d, in.a[1])), splat(d, in.a[0]));
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Entry<V> entry_into_quadric(D d, const ShadeInput& in, V column) {
     const V zero = hn::Zero(d), xi = quadric_xi(d, in, column);
     const V a = quadric_a(d, in, xi);
-    const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
-    const V limb = hn::Max(
-        zero, hn::MulAdd(xi, hn::MulAdd(xi, hn::Set(d, in.limb[2]), hn::Set(d, in.limb[1])), hn::Set(d, in.limb[0])));
+    const V b = hn::MulAdd(xi, splat(d, in.b[1]), splat(d, in.b[0]));
+    const V limb =
+        hn::Max(zero, hn::MulAdd(xi, hn::MulAdd(xi, splat(d, in.limb[2]), splat(d, in.limb[1])), splat(d, in.limb[0])));
     const V root = hn::Sqrt(limb);
     // Eq 4: the entry, in the form that does not cancel.
     const auto before = hn::Le(b, zero);
-    const V numerator = hn::IfThenElse(before, hn::Set(d, in.c), hn::Add(b, root));
+    const V numerator = hn::IfThenElse(before, splat(d, in.c), hn::Add(b, root));
     const V denominator = hn::IfThenElse(before, hn::Sub(root, b), hn::Neg(a));
     const V depth = hn::Div(numerator, denominator);
     return {hn::IfThenElse(hn::Gt(depth, zero), hn::Min(depth, hn::Set(d, kLargestDepth)), hn::Set(d, kLargestDepth)),
@@ -72,12 +72,12 @@ HWY_INLINE Entry<V> entry_into_quadric(D d, const ShadeInput& in, V column) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SurfacePoint<V> on_quadric(D d, const ShadeInput& in, V column, const Vec3<V>& ray, const Entry<V>& entry) {
     const Vec3<V> q = mul_add(entry.depth, ray, splat(d, in.quadric->eye_from_anchor));
-    const V xx = hn::Set(d, in.quadric->m[0]), yy = hn::Set(d, in.quadric->m[1]), zz = hn::Set(d, in.quadric->m[2]);
-    const V xy = hn::Set(d, in.quadric->m[3]), xz = hn::Set(d, in.quadric->m[4]), yz = hn::Set(d, in.quadric->m[5]);
+    const V xx = splat(d, in.quadric->m[0]), yy = splat(d, in.quadric->m[1]), zz = splat(d, in.quadric->m[2]);
+    const V xy = splat(d, in.quadric->m[3]), xz = splat(d, in.quadric->m[4]), yz = splat(d, in.quadric->m[5]);
     const Vec3<V> normal{
-        hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, hn::Set(d, in.quadric->gradient[0])))),
-        hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, hn::Set(d, in.quadric->gradient[1])))),
-        hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, hn::Set(d, in.quadric->gradient[2]))))};
+        hn::MulAdd(xx, q.x, hn::MulAdd(xy, q.y, hn::MulAdd(xz, q.z, splat(d, in.quadric->gradient[0])))),
+        hn::MulAdd(xy, q.x, hn::MulAdd(yy, q.y, hn::MulAdd(yz, q.z, splat(d, in.quadric->gradient[1])))),
+        hn::MulAdd(xz, q.x, hn::MulAdd(yz, q.y, hn::MulAdd(zz, q.z, splat(d, in.quadric->gradient[2]))))};
     const V inverse_length = inverse_sqrt(d, hn::Max(dot(normal, normal), hn::Set(d, 1e-30F)));
     return {entry.depth,
             normal,
@@ -93,7 +93,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V limb_share(D d, const ShadeInput& in, const SurfacePoint<V>& point) {
     const V one = hn::Set(d, 1.0F);
     if (in.kind != ShadeInput::Kind::quadric || !(in.quadric->inverse_centre_value > 0.0F)) return one;
-    const V share = hn::Mul(point.limb, hn::Set(d, in.quadric->inverse_centre_value));
+    const V share = hn::Mul(point.limb, splat(d, in.quadric->inverse_centre_value));
     const V g = hn::Div(share, hn::Max(point.a, hn::Set(d, 1e-30F)));
     return hn::IfThenElse(hn::Gt(point.a, hn::Zero(d)), hn::Min(one, g), one);
 }
@@ -101,7 +101,7 @@ HWY_INLINE V limb_share(D d, const ShadeInput& in, const SurfacePoint<V>& point)
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Entry<V> entry_at(D d, const ShadeInput& in, V column, const Vec3<V>& ray) {
     if (in.kind == ShadeInput::Kind::quadric) return entry_into_quadric(d, in, column);
-    const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
+    const V u = hn::MulAdd(column, splat(d, in.plane_u_step), splat(d, in.plane_u));
     return {hn::Div(hn::Set(d, 1.0F), hn::Max(u, hn::Set(d, 1.0F / kLargestDepth))),
             hn::Neg(dot(splat(d, in.normal), ray))};
 }
@@ -126,19 +126,19 @@ HWY_INLINE bool limb_is_far(const ShadeInput& in, float column, float stride) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE bool changes_little(D d, const ShadeInput& in, V column, float stride, const SurfacePoint<V>& point) {
     if (in.kind == ShadeInput::Kind::plane) {
-        const V u = hn::MulAdd(column, hn::Set(d, in.plane_u_step), hn::Set(d, in.plane_u));
+        const V u = hn::MulAdd(column, splat(d, in.plane_u_step), splat(d, in.plane_u));
         return hn::AllTrue(d, hn::Gt(hn::Mul(hn::Set(d, 0.15F), u), hn::Set(d, stride * std::abs(in.plane_u_step))));
     }
-    const V xi = hn::MulAdd(column, hn::Set(d, in.row->xi_step), hn::Set(d, in.xi));
-    const V b = hn::MulAdd(xi, hn::Set(d, in.b[1]), hn::Set(d, in.b[0]));
-    const V limb_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.limb[2]), hn::Set(d, in.limb[1]));
+    const V xi = hn::MulAdd(column, splat(d, in.row->xi_step), splat(d, in.xi));
+    const V b = hn::MulAdd(xi, splat(d, in.b[1]), splat(d, in.b[0]));
+    const V limb_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.limb[2]), splat(d, in.limb[1]));
     const float step = stride * std::abs(in.row->xi_step);
     const auto steady =
         hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(limb_slope)), hn::Mul(hn::Set(d, kSteadyShare), point.limb));
     // Depth is C/(root - B) or (B + root)/-A (Eq 4), the one that does not cancel.
     const V reach = hn::Set(d, 0.15F);
     const auto near = hn::Lt(hn::Set(d, step * std::abs(in.b[1])), hn::Mul(reach, hn::Add(point.against, hn::Abs(b))));
-    const V a_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.a[2]), hn::Set(d, in.a[1]));
+    const V a_slope = hn::MulAdd(xi, hn::Set(d, 2.0F * in.a[2]), splat(d, in.a[1]));
     const auto by_a = hn::Lt(hn::Mul(hn::Set(d, step), hn::Abs(a_slope)), hn::Mul(reach, hn::Neg(point.a)));
     return hn::AllTrue(d, hn::And(hn::And(steady, near), hn::Or(hn::Le(b, hn::Zero(d)), by_a)));
 }

@@ -33,7 +33,7 @@ struct TextureSums {
     /// Of T: the variance of what filtering took out of it.
     template <class D, class V = hn::Vec<D>>
     [[nodiscard]] HWY_INLINE V lost_variance(D d, const FrameTexture& texture, std::size_t i) const {
-        const V half = hn::Set(d, 0.5F), variance = hn::Set(d, texture.variance);
+        const V half = hn::Set(d, 0.5F), variance = splat(d, texture.variance);
         const V lost_x = hn::Max(hn::Zero(d), hn::NegMulAdd(half, kept_x.load(d, i), variance));
         const V lost_y = hn::Max(hn::Zero(d), hn::NegMulAdd(half, kept_y.load(d, i), variance));
         const V fx = x.load(d, i), fy = y.load(d, i);
@@ -61,16 +61,16 @@ HWY_NOINLINE void add_terms_by(const FrameTexture& texture, int first, int last,
         std::size_t terms = 0;
         for (int k = first; k < last; ++k, ++terms) {
             const FrameTexture::Term& term = texture.terms[static_cast<std::size_t>(k)];
-            const V full = hn::Set(d, term.amplitude), fade = hn::Set(d, term.fade);
+            const V full = splat(d, term.amplitude), fade = splat(d, term.fade);
             amplitude_x[terms] = hn::Max(zero, hn::NegMulAdd(fade, footprint_x, full));
             amplitude_y[terms] = hn::Max(zero, hn::NegMulAdd(fade, footprint_y, full));
             if (hn::AllTrue(d, hn::Eq(hn::Max(amplitude_x[terms], amplitude_y[terms]), zero))) break;
-            const V w = hn::Set(d, term.turns_per_metre);
-            V x = hn::MulAdd(w, px, hn::Set(d, term.along_x)), y = hn::MulAdd(w, py, hn::Set(d, term.along_y));
-            x = across.add(hn::MulAdd(w, half_y, hn::Set(d, term.half_y)), x);
-            y = across.add(hn::MulAdd(w, half_x, hn::Set(d, term.half_x)), y);
+            const V w = splat(d, term.turns_per_metre);
+            V x = hn::MulAdd(w, px, splat(d, term.along_x)), y = hn::MulAdd(w, py, splat(d, term.along_y));
+            x = across.add(hn::MulAdd(w, half_y, splat(d, term.half_y)), x);
+            y = across.add(hn::MulAdd(w, half_x, splat(d, term.half_x)), y);
             if constexpr (kVertical) {
-                const V r = SineOf::reduced(hn::MulAdd(w, half_z, hn::Set(d, term.half_z)));
+                const V r = SineOf::reduced(hn::MulAdd(w, half_z, splat(d, term.half_z)));
                 const auto sine_z = up.of_reduced(r), cosine_z = up.of_reduced(hn::Sub(quarter, hn::Abs(r)));
                 x = hn::MulAdd(sine_z.parabola, sine_z.over, x);
                 y = hn::MulAdd(cosine_z.parabola, cosine_z.over, y);

@@ -10,7 +10,9 @@
 #include <hwy/highway.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "ig_core/quality.h"
@@ -43,9 +45,15 @@ template <class V>
 HWY_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
     return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
+/// A float that lies in memory, in all lanes. By the integers' instruction: Zen 4 does that while it loads, but the
+/// floats' in an arithmetic unit too.
+template <class D>
+HWY_INLINE hn::Vec<D> splat(D d, const float& x) {
+    return hn::BitCast(d, hn::Set(hn::RebindToUnsigned<D>(), std::bit_cast<std::uint32_t>(x)));
+}
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3<V> splat(D d, const std::array<float, 3>& v) {
-    return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+    return {splat(d, v[0]), splat(d, v[1]), splat(d, v[2])};
 }
 /// a + f b
 template <class V>

@@ -20,10 +20,10 @@ enum class DistanceRule : std::uint8_t {
     interpolated  ///< linearly between a span's ends, as in the paper (Gardner 1984, 2.1)
 };
 
-/// How the texturing function's sines are evaluated; errors of one sine (shading/vector_math-inl.h).
+/// How the texturing function's sines are evaluated; errors of one sine (shading/cosine-inl.h).
 enum class SineMethod : std::uint8_t {
-    parabola,    ///< a parabola times what is linear in it, 1e-3
-    polynomial,  ///< a parabola times what is quadratic in it, 1e-5
+    parabola,    ///< a parabola times what is quadratic in it, 2e-3
+    polynomial,  ///< a parabola times a polynomial of degree 4 in it, 1e-6
     table,       ///< the nearest of 1024 entries, 3.1e-3
     library      ///< Highway's own, 3e-7
 };

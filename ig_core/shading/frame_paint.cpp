@@ -38,11 +38,13 @@ FramePaint make_paint(const Paint& paint, const std::vector<FrameTexture>& textu
     return out;
 }
 
-/// Phase in turns, reduced to 0..1.
+/// A cosine's phase in turns, reduced to 0..1.
 float turns(double radians) {
     const double t = radians / (2.0 * std::numbers::pi);
     return static_cast<float>(t - std::floor(t));
 }
+/// That of the cosine which is a sine of some phase.
+float turns_of_sine(double radians) { return turns(radians - 0.5 * std::numbers::pi); }
 
 }  // namespace
 
@@ -93,11 +95,12 @@ void move_textures(const Scene& scene, const ScenePoint& eye, double seconds, co
             // That of a sine of amplitude 1 is 1/2.
             if (static_cast<int>(k) < paints.textures[i].count)
                 paints.textures[i].variance += 0.5F * out.amplitude * out.amplitude;
-            out.along_x = turns(w * (eye.metres.x + texture.drift.x * seconds));
-            out.along_y = turns(w * (eye.metres.y + texture.drift.y * seconds));
-            out.half_x = turns(0.5 * w * eye.metres.x + p);
-            out.half_y = turns(0.5 * w * eye.metres.y + p);
-            out.half_z = turns(0.5 * w * (eye.metres.z - texture.rise * seconds) + p);
+            out.along_x = turns_of_sine(w * (eye.metres.x + texture.drift.x * seconds));
+            out.along_y = turns_of_sine(w * (eye.metres.y + texture.drift.y * seconds));
+            out.half_x = turns_of_sine(0.5 * w * eye.metres.x + p);
+            out.half_y = turns_of_sine(0.5 * w * eye.metres.y + p);
+            const double up = 0.5 * w * (eye.metres.z - texture.rise * seconds) + p;
+            out.up_x = turns_of_sine(up), out.up_y = turns(up);
         }
     }
 }

@@ -18,10 +18,12 @@ inline constexpr float kFilteredAway = 36.0F;
 /// reduced in double, so that the float part stays small wherever the texture is not yet filtered away.
 struct FrameTexture {
     struct Term {
-        float turns_per_metre;                           ///< w_i / 2 pi
-        float amplitude;                                 ///< of the sine in a factor, C_i / (2 sum C)
-        float fade;                                      ///< what of it a footprint of 1 m^2 takes away
-        float along_x, along_y, half_x, half_y, half_z;  ///< phases at the eye, turns, in 0..1
+        float turns_per_metre;  ///< w_i / 2 pi
+        float amplitude;        ///< of the sine in a factor, C_i / (2 sum C)
+        float fade;             ///< what of it a footprint of 1 m^2 takes away
+        // Phases at the eye, turns, in 0..1, of cosines: of the sines of X and Y, of what X / 2 and Y / 2 add to the
+        // other's phase, and of what Z / 2 adds to either.
+        float along_x, along_y, half_x, half_y, up_x, up_y;
     };
     std::array<Term, kMaxTextureTerms> terms;  ///< by rising frequency
     int count = 0;

@@ -7,6 +7,7 @@
 #define QUADRIG_TEXTURE_INL_H_
 #endif
 
+#include "ig_core/shading/cosine-inl.h"
 #include "ig_core/shading/samples-inl.h"
 #include "ig_core/shading/vector_math-inl.h"
 
@@ -48,9 +49,8 @@ HWY_NOINLINE void add_terms_by(const FrameTexture& texture, int first, int last,
                                std::size_t count, TextureSums& sums) {
     const hn::ScalableTag<float> d;
     using V = hn::Vec<decltype(d)>;
-    using SineOf = Sine<V, kMethod>;
-    const V zero = hn::Zero(d), quarter = hn::Set(d, 0.25F), half = hn::Set(d, 0.5F);
-    const SineOf sine(d, 1.0F), across(d, 0.25F), up(d, 0.5F * texture.vertical);
+    const V zero = hn::Zero(d), half = hn::Set(d, 0.5F);
+    const Cosine<V, kMethod> sine(d, 1.0F), across(d, 0.25F), up(d, 0.5F * texture.vertical);
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const V px = points.x.load(d, i), py = points.y.load(d, i);
         const V half_x = hn::Mul(half, px), half_y = hn::Mul(half, py), half_z = hn::Mul(half, points.z.load(d, i));
@@ -70,10 +70,8 @@ HWY_NOINLINE void add_terms_by(const FrameTexture& texture, int first, int last,
             x = across.add(hn::MulAdd(w, half_y, splat(d, term.half_y)), x);
             y = across.add(hn::MulAdd(w, half_x, splat(d, term.half_x)), y);
             if constexpr (kVertical) {
-                const V r = SineOf::reduced(hn::MulAdd(w, half_z, splat(d, term.half_z)));
-                const auto sine_z = up.of_reduced(r), cosine_z = up.of_reduced(hn::Sub(quarter, hn::Abs(r)));
-                x = hn::MulAdd(sine_z.parabola, sine_z.over, x);
-                y = hn::MulAdd(cosine_z.parabola, cosine_z.over, y);
+                x = up.add(hn::MulAdd(w, half_z, splat(d, term.up_x)), x);
+                y = up.add(hn::MulAdd(w, half_z, splat(d, term.up_y)), y);
             }
             phase_x[terms] = x;
             phase_y[terms] = y;

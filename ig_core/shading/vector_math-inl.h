@@ -13,28 +13,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
-
-#include "ig_core/quality.h"
-
-// Highway's include guard is per target as well, so this has to come after ours.
-#include <hwy/contrib/math/math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrig {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr std::int32_t kSineTableSize = 1024;  // a power of two
-inline const float* sine_table() {
-    static const auto table = [] {
-        std::array<float, kSineTableSize> sines{};
-        for (std::size_t i = 0; i < sines.size(); ++i)
-            sines[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / kSineTableSize));
-        return sines;
-    }();
-    return table.data();
-}
 
 template <class V>
 struct Vec3 {
@@ -60,62 +43,6 @@ template <class V>
 HWY_INLINE Vec3<V> mul_add(V f, const Vec3<V>& b, const Vec3<V>& a) {
     return {hn::MulAdd(f, b.x, a.x), hn::MulAdd(f, b.y, a.y), hn::MulAdd(f, b.z, a.z)};
 }
-
-/// f sin(2 pi t) for some factor f, |t| up to about 1e3; errors are relative to f.
-///   polynomial  on the nearest half turn, a quadratic in the parabola q = r (1/2 - |r|), which has the sine's zeros;
-///               minimax, |error| <= 1e-5
-///   parabola    the same, linear in q: |error| <= 1e-3
-///   table       the nearest of 1024 entries: |error| <= 3.1e-3
-///   library     Highway's: |error| <= 3e-7
-template <class V, SineMethod kMethod = SineMethod::polynomial>
-struct Sine {
-    using D = hn::DFromV<V>;
-    V half, k0, k1, k2;
-
-    HWY_INLINE Sine(D d, float factor)
-        : half(hn::Set(d, 0.5F)), k0(hn::Set(d, factor)), k1(hn::Set(d, factor)), k2(hn::Set(d, factor)) {
-        if constexpr (kMethod == SineMethod::polynomial) {
-            k0 = hn::Set(d, factor * 12.568868594F);
-            k1 = hn::Set(d, factor * 50.02489346F);
-            k2 = hn::Set(d, factor * 77.939324312F);
-        } else if constexpr (kMethod == SineMethod::parabola) {
-            k0 = hn::Set(d, factor * 12.4888F);
-            k1 = hn::Set(d, factor * 56.032F);
-        }
-    }
-
-    /// The sine is their product: the parabola at t, and the sine's value over it.
-    struct Parts {
-        V parabola, over;
-    };
-    [[nodiscard]] HWY_INLINE Parts of_reduced(V r) const {
-        const D d;
-        if constexpr (kMethod == SineMethod::table) {
-            const hn::RebindToSigned<D> di;
-            const auto entry = hn::NearestInt(hn::Mul(r, hn::Set(d, static_cast<float>(kSineTableSize))));
-            const auto index = hn::And(entry, hn::Set(di, kSineTableSize - 1));
-            return {hn::GatherIndex(d, sine_table(), index), k0};
-        } else if constexpr (kMethod == SineMethod::library) {
-            return {hn::Sin(d, hn::Mul(r, hn::Set(d, 6.2831853072F))), k0};
-        } else {
-            const V q = hn::Mul(r, hn::Sub(half, hn::Abs(r))), size = hn::Abs(q);
-            if constexpr (kMethod == SineMethod::parabola) return {q, hn::MulAdd(size, k1, k0)};
-            return {q, hn::MulAdd(size, hn::MulAdd(size, k2, k1), k0)};
-        }
-    }
-    [[nodiscard]] static HWY_INLINE V reduced(V t) { return hn::Sub(t, hn::Round(t)); }
-    [[nodiscard]] HWY_INLINE Parts at(V t) const { return of_reduced(reduced(t)); }
-    /// sum + f sin(2 pi t)
-    [[nodiscard]] HWY_INLINE V add(V t, V sum) const {
-        const Parts parts = at(t);
-        return hn::MulAdd(parts.parabola, parts.over, sum);
-    }
-    /// sum + amplitude f sin(2 pi t)
-    [[nodiscard]] HWY_INLINE V add(V t, V amplitude, V sum) const {
-        const Parts parts = at(t);
-        return hn::MulAdd(hn::Mul(amplitude, parts.parabola), parts.over, sum);
-    }
-};
 
 /// 1 / sqrt(x) for x > 0, relative error <= 7e-7, without the two slowest instructions there are: Newton's iteration
 /// from the exponent halved (Walczyk, Moroz, Cieslinski, "Improving the accuracy of the fast inverse square root",

@@ -80,15 +80,20 @@ void group(const PixelRow& row, std::span<CompositeLayer> layers) {
     }
 }
 
-void set_quadric(const EyeSolid& e, double x, double z, ShadeInput& in) {
-    const double zeta = z - e.z0;
+/// `x` is that of the job's first column, `half_width` half of what its columns span. The polynomials are about the
+/// middle one: where a needle or an edge lies far from its anchor's image, L about that would be what single precision
+/// leaves of a difference.
+void set_quadric(const EyeSolid& e, double x, double z, double half_width, ShadeInput& in) {
+    const double zeta = z - e.z0, middle = x - e.x0 + half_width;
     in.kind = ShadeInput::Kind::quadric;
-    in.xi = static_cast<float>(x - e.x0);
+    in.xi = static_cast<float>(-half_width);
     in.c = static_cast<float>(e.s);
-    in.b = {static_cast<float>(e.v.y + e.v.z * zeta), static_cast<float>(e.v.x)};
+    in.b = {static_cast<float>(e.v.y + e.v.z * zeta + e.v.x * middle), static_cast<float>(e.v.x)};
     const auto on_row = [&](const Sym3& form) {
-        return std::array<float, 3>{static_cast<float>(form.yy + zeta * (2.0 * form.yz + zeta * form.zz)),
-                                    static_cast<float>(2.0 * (form.xy + form.xz * zeta)), static_cast<float>(form.xx)};
+        const double constant = form.yy + zeta * (2.0 * form.yz + zeta * form.zz);
+        const double linear = 2.0 * (form.xy + form.xz * zeta);
+        return std::array<float, 3>{static_cast<float>(constant + middle * (linear + middle * form.xx)),
+                                    static_cast<float>(linear + 2.0 * middle * form.xx), static_cast<float>(form.xx)};
     };
     in.a = on_row(e.m);
     in.limb = on_row(e.limb);
@@ -180,7 +185,7 @@ void set_job(const FrameShading& frame, const PixelRow& row, const ShadeJob& job
             in.colour = seen_light((*frame.lights)[surface.index], *surface.light, frame.light);
             break;
         case Surface::Kind::quadric:
-            set_quadric(surface.outline->solid, x, range.z, in);
+            set_quadric(surface.outline->solid, x, range.z, 0.5 * (in.count - 1) * row.column_step, in);
             break;
         case Surface::Kind::face:
             set_plane(surface.outline->solid.face(surface.surface).scene_outward, depth(), in);

@@ -82,13 +82,18 @@ void set_shape(const Hill& hill, const ScenePoint& eye, Solid<Quad>& solid) {
     solid.half_spaces.push_back({{0, 0, -1}, centre[2], 0});
 }
 
+/// M is singular where it is so but for this share of it: ten coefficients say a tilted cylinder or paraboloid to their
+/// own rounding only, and it has no more of a centre than an upright one.
+constexpr Quad kSingular = 1e-12;
+
 std::optional<Quad> centre_value(const Quadric<Quad>& q) {
     const auto& [xx, yy, zz, xy, yz, xz] = q.m;
     const Quad adjugate_xx = yy * zz - yz * yz, adjugate_xy = yz * xz - xy * zz, adjugate_xz = xy * yz - yy * xz;
     const Quad determinant = xx * adjugate_xx + xy * adjugate_xy + xz * adjugate_xz;
-    if (magnitude(determinant) <= Limits<Quad>::touch * q.m_scale * q.m_scale * q.m_scale) return std::nullopt;
     const std::array<Quad, 6> adjugate{adjugate_xx, xx * zz - xz * xz, xx * yy - xy * xy,
                                        adjugate_xy, xy * xz - xx * yz, adjugate_xz};
+    // The smallest eigenvalue of M is about det(M) / |adj(M)|.
+    if (magnitude(determinant) <= kSingular * q.m_scale * length(adjugate)) return std::nullopt;
     const Quad drop = dot(q.v, times(adjugate, q.v)) / determinant;
     const Quad value = magnitude(q.s - drop);
     if (value <= Limits<Quad>::thin * (magnitude(drop) + magnitude(q.s))) return std::nullopt;

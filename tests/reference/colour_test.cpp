@@ -195,6 +195,28 @@ TEST_CASE("the limb function of ten coefficients does not depend on their scale,
     CHECK(middle_of(scene, look_north({3, -40, 10})).r == Approx(0.5 + 0.5 * scene.sky.horizon.r).epsilon(1e-6));
 }
 
+TEST_CASE("tilted cylinders and paraboloids have no more of a centre than upright ones: the limb function is 1") {
+    Scene scene = dusk();
+    scene.sun.ambient = 1.0;
+    scene.sky.zenith = scene.sky.horizon;
+    const auto check_half_open = [&](const Shape& shape, glm::dvec3 eye) {
+        scene.objects = {solid(shape)};
+        scene.objects[0].paint = {{1.0, 1.0, 1.0}, 0u, 0.0, Translucence{0.25, 0.45, 0.8}};
+        CHECK(middle_of(scene, look_north(eye)).r == Approx(0.5 + 0.5 * scene.sky.horizon.r).epsilon(1e-6));
+    };
+    for (const Attitude& tilt : {Attitude{{90}, {0}, {0}}, Attitude{{30}, {20}, {10}}, Attitude{{77}, {-40}, {123}}}) {
+        INFO("heading " << tilt.heading.value);
+        const glm::dvec3 u =
+            glm::transpose(eye_from_scene_rotation(tilt))[1];  // the axis; M = 1 - u u' but for rounding
+        const auto about_axis = [&](double linear, double constant) {
+            return GeneralQuadric{{1 - u.x * u.x, 1 - u.y * u.y, 1 - u.z * u.z, -2 * u.x * u.y, -2 * u.y * u.z,
+                                   -2 * u.x * u.z, linear * u.x, linear * u.y, linear * u.z, constant}};
+        };
+        check_half_open(about_axis(0, -25), {1, -40, 2});
+        check_half_open(about_axis(-1, 0), glm::dvec3(1, -40, 2) + 9.0 * u);
+    }
+}
+
 TEST_CASE("a hill's limb function is 1 where the ray has no lowest point of Q, and falls to 0 on the limb") {
     // A level ray at a distance s beside the axis, b below the centre: min Q = 1 + s^2/a^2 - b^2/c^2, |Q(centre)| = 1.
     const double r = 40, m = 0.5, c = r * m * m, a = r * m, b = 1.3 * c;

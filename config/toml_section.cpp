@@ -16,11 +16,7 @@ std::string shortest(double number) {
 }
 
 std::string describe(const toml::node& node) {
-    if (const auto* text = node.as_string()) {
-        constexpr std::size_t kShown = 40;
-        const std::string& whole = text->get();
-        return "the string \"" + (whole.size() > kShown ? whole.substr(0, kShown) + "..." : whole) + "\"";
-    }
+    if (const auto* text = node.as_string()) return "the string \"" + excerpt(text->get()) + "\"";
     if (const auto* number = node.as_floating_point()) return shortest(number->get());
     if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
     if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
@@ -75,6 +71,14 @@ std::size_t line_of_too_long_a_key(std::string_view text) {
     return 0;
 }
 
+/// A line of a text, counted from 1, without the blanks about it.
+std::string_view line_of(std::string_view text, std::size_t line) {
+    for (; line > 1; --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
 }  // namespace
 
 toml::table parse_toml_file(const std::filesystem::path& file) { return parse_toml_text(file, read_text_file(file)); }
@@ -86,7 +90,10 @@ toml::table parse_toml_text(const std::filesystem::path& file, std::string_view 
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
-        throw FileError(file, error.source().begin.line, "", "not TOML: " + std::string(error.description()));
+        // The line says which key it is: a number beyond a double's range, 1e400, is none to the parser.
+        const std::size_t line = error.source().begin.line;
+        throw FileError(file, line, "",
+                        "not TOML: " + std::string(error.description()) + ", in: " + excerpt(line_of(text, line)));
     }
 }
 

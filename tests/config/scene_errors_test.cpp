@@ -194,6 +194,30 @@ TEST_CASE("a text that is not TOML is refused with its line") {
     }
 }
 
+TEST_CASE("a number beyond a double's range, which TOML has no value for, is refused with the line that it stands on") {
+    const config::FileError error = complaint_about(TemporaryFile("[haze]\r\n  visibility = 1e400 \r\n").path());
+    CHECK(error.line() == 2);
+    CHECK_THAT(error.what(), Catch::EndsWith(", in: visibility = 1e400"));
+}
+
+TEST_CASE("whatever a file holds, the complaint about it is one line of UTF-8") {
+    const auto complaint = [](const std::string& value) {
+        return std::string(complaint_about(TemporaryFile("[sun]\nambient = \"" + value + "\"\n").path()).what());
+    };
+    CHECK_THAT(complaint("a\\nb\\u001b[31mc\\u007f"), Catch::EndsWith(R"(found the string "a\x0Ab\x1B[31mc\x7F")"));
+    CHECK_THAT(complaint("\u20AC \u00B5 \U0001F333"), Catch::EndsWith("found the string \"\u20AC \u00B5 \U0001F333\""));
+    // Cut between characters, wherever 40 bytes end.
+    for (const std::string before : {"", "a", "ab", "abc"}) {
+        std::string many = before, shown = before;
+        for (int i = 0; i < 20; ++i) many += "\U0001F333";
+        while (shown.size() + 4 <= 40) shown += "\U0001F333";
+        CHECK_THAT(complaint(many), Catch::EndsWith("found the string \"" + shown + "...\""));
+    }
+    const config::FileError error = complaint_about(TemporaryFile("[sun]\n\"a\\nb\" = 1\n").path());
+    CHECK(error.key() == "sun.a\nb");
+    CHECK_THAT(error.what(), Catch::Contains(R"(key 'sun.a\x0Ab')"));
+}
+
 TEST_CASE("a key of very many parts is refused with its line, dots elsewhere are not counted") {
     std::string key = "a";
     for (int part = 1; part < 100'000; ++part) key += part % 2 ? ".b" : ".\"c d\"";

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace quadrig::config {
@@ -46,9 +46,8 @@ class CameraReader {
     }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& expected, const Json& found) const {
-        constexpr std::size_t kShown = 40;
-        const std::string text = found.dump(-1, ' ', false, Json::error_handler_t::replace);
-        fail(key, "expected " + expected + ", found " + (text.size() > kShown ? text.substr(0, kShown) + "..." : text));
+        fail(key,
+             "expected " + expected + ", found " + excerpt(found.dump(-1, ' ', false, Json::error_handler_t::replace)));
     }
 
     [[nodiscard]] const Json& required(const Json& camera, const std::string& name) const {
@@ -83,16 +82,23 @@ class PathReader {
     PathReader(const std::filesystem::path& file, const std::string& text) : file_(file), text_(text), stream_(text) {}
 
     std::vector<Camera> read() {
+        // The parser takes it for the text's end.
+        if (const std::size_t nul = text_.find('\0'); nul != std::string::npos)
+            throw FileError(file_, line_before(nul), "", "not JSON: a character of code 0");
+        Json other;  // than an array of cameras
         try {
-            std::ignore = Json::parse(stream_, [this](int depth, Json::parse_event_t event, Json& parsed) {
+            other = Json::parse(stream_, [this](int depth, Json::parse_event_t event, Json& parsed) {
                 return take(depth, event, parsed);
             });
         } catch (const Json::parse_error& error) {
-            throw FileError(file_, line_before(error.byte), "", std::string("not JSON: ") + error.what());
+            throw FileError(file_, line_before(error.byte), key_here(), std::string("not JSON: ") + error.what());
         } catch (const Json::exception& error) {
-            throw FileError(file_, line_here(), "", std::string("not JSON: ") + error.what());
+            throw FileError(file_, line_here(), key_here(), std::string("not JSON: ") + error.what());
         }
-        if (cameras_.empty()) throw FileError(file_, 1, "", "expected an array of at least one camera, found none");
+        if (cameras_.empty()) {
+            const std::string found = is_array_ ? "none" : other.type_name();
+            throw FileError(file_, 1, "", "expected an array of at least one camera, found " + found);
+        }
         return std::move(cameras_);
     }
 
@@ -107,6 +113,7 @@ class PathReader {
         if (depth > 4) return false;
         if (depth == 1 && (event == Event::object_start || event == Event::array_start)) {
             lines_ = {{"", line_here()}};
+            key_.clear();
         } else if (depth == 1) {
             lines_.emplace("", line_here());
             cameras_.push_back(CameraReader(file_, cameras_.size(), lines_).read(parsed));
@@ -114,14 +121,27 @@ class PathReader {
             return false;
         } else if (depth == 2 && event == Event::key) {
             key_ = "." + parsed.get<std::string>();
-            element_ = 0;
+            element_.reset();
             if (!lines_.emplace(key_, line_here()).second)
-                throw FileError(file_, line_here(), "[" + std::to_string(cameras_.size()) + "]" + key_,
-                                "expected once, found again");
-        } else if (depth == 3 && event == Event::value) {
-            lines_.emplace(key_ + "[" + std::to_string(element_++) + "]", line_here());
+                throw FileError(file_, line_here(), key_here(), "expected once, found again");
+        } else if (depth == 2 && event == Event::array_start) {
+            element_ = 0;
+        } else if (depth == 2) {
+            key_.clear();
+            element_.reset();
+        } else if (depth == 3 && event == Event::value && element_) {
+            lines_.emplace(key_ + index(*element_), line_here());
+            ++*element_;
         }
         return true;
+    }
+
+    static std::string index(std::size_t i) { return "[" + std::to_string(i) + "]"; }
+
+    /// Where in a camera the parser is; nothing between cameras.
+    [[nodiscard]] std::string key_here() const {
+        if (lines_.empty()) return "";
+        return index(cameras_.size()) + key_ + (element_ ? index(*element_) : "");
     }
 
     /// The parser has read one character more than a number has.
@@ -144,7 +164,7 @@ class PathReader {
     bool is_array_ = false;
     Lines lines_;
     std::string key_;
-    std::size_t element_ = 0;
+    std::optional<std::size_t> element_;  ///< of the array that is the key's value
     std::vector<Camera> cameras_;
 };
 

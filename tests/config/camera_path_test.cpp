@@ -60,7 +60,7 @@ TEST_CASE("mistakes in a camera path are refused with the camera's index and the
                Catch::Contains("expected an array of 3 numbers, found [[[]]]"));
     CHECK_THAT(complaint_about("[3]", "[0]"), Catch::Contains("found 3"));
     CHECK_THAT(complaint_about("[]", ""), Catch::Contains("at least one camera"));
-    CHECK_THAT(complaint_about("{}", ""), Catch::Contains("at least one camera"));
+    CHECK_THAT(complaint_about("{}", ""), Catch::Contains("at least one camera, found object"));
 }
 
 TEST_CASE("a mistake in a camera path is told with the line that it stands on") {
@@ -73,7 +73,7 @@ TEST_CASE("a mistake in a camera path is told with the line that it stands on") 
         {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0]\n}]", "[1].fov", 3},
         {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0],\n\"fov\": 60,\n\"roll\": 1}]", "[1].roll", 7},
         {"\"eye\": [0, 0, 8],\n\"attitude\": [0, 0, 0],\n\"fov\": 60}\n,\n3\n]", "[2]", 8},
-        {"\"eye\": [1e999,\n0, 8]}]", "", 4},
+        {"\"eye\": [1e999,\n0, 8]}]", "[1].eye[0]", 4},
     };
     for (const auto& [text, key, line] : cases) {
         INFO(text);
@@ -81,8 +81,25 @@ TEST_CASE("a mistake in a camera path is told with the line that it stands on") 
     }
 }
 
-TEST_CASE("a camera path that is not JSON is refused with its line") {
-    CHECK_THAT(complaint_about("[\n\n{\"eye\": nan}]", ""), Catch::Contains(".json:3: not JSON: "));
-    CHECK_THAT(complaint_about("[{\"eye\": [1e999, 0, 0]}]", ""), Catch::Contains("not JSON: "));
+TEST_CASE("a camera path that is not JSON is refused with its line, and with the key where there is one") {
+    CHECK_THAT(complaint_about("[\n\n{\"eye\": nan}]", "[0].eye"),
+               Catch::Contains(".json:3: key '[0].eye': not JSON: "));
+    CHECK_THAT(complaint_about("[{\"eye\": [0, 0, 8]; \"fov\": 60}]", "[0]"), Catch::Contains("not JSON: "));
+    CHECK_THAT(complaint_about("[;]", ""), Catch::Contains("not JSON: "));
     CHECK_THAT(complaint_about("", ""), Catch::Contains("not JSON: "));
+    CHECK_THAT(complaint_about("[{\"\xC3", "[0]"), Catch::Contains("\\xC3"));
+    const std::string good = R"({"eye": [0, 0, 8], "attitude": [0, 0, 0], "fov": 60})";
+    CHECK_THAT(complaint_about("[\n" + good + "]" + '\0' + "]", ""), Catch::Contains(".json:2: not JSON: "));
+}
+
+TEST_CASE("numbers that are not finite are refused in a camera path as other numbers out of range: by line and key") {
+    for (const std::string number : {"NaN", "Infinity", "-Infinity", "1e999", "-1e999"}) {
+        INFO(number);
+        CHECK_THAT(complaint_about("[{\"eye\": [0, 0, 8],\n\"attitude\": [0, " + number + ", 0], \"fov\": 60}]",
+                                   "[0].attitude[1]"),
+                   Catch::Contains(".json:2: "));
+        CHECK_THAT(
+            complaint_about("[{\"eye\": [0, 0, 8], \"attitude\": [0, 0, 0],\n\"fov\": " + number + "}]", "[0].fov"),
+            Catch::Contains(".json:2: "));
+    }
 }

@@ -20,6 +20,9 @@ std::vector<TextureTerm> sorted_terms(const Texture& texture) {
     return terms;
 }
 
+/// Softness is squared in single precision. T is no finer than the least; with the greatest opacity is 1/2 all over.
+constexpr double kLeastSoftness = 1e-9, kGreatestSoftness = 1e9;
+
 FramePaint make_paint(const Paint& paint, const std::vector<FrameTexture>& textures) {
     FramePaint out;
     out.colour = to_float(paint.colour);
@@ -31,7 +34,7 @@ FramePaint make_paint(const Paint& paint, const std::vector<FrameTexture>& textu
         out.translucent = true;
         out.threshold = static_cast<float>(paint.translucence->threshold);
         out.limb_threshold = static_cast<float>(paint.translucence->limb_threshold);
-        out.softness = static_cast<float>(paint.translucence->softness);
+        out.softness = static_cast<float>(std::clamp(paint.translucence->softness, kLeastSoftness, kGreatestSoftness));
     }
     const std::uint32_t texture = paint.texture ? 1 + *paint.texture : 0;
     out.bin = static_cast<std::uint8_t>(2 * (texture % kTextureBins) + (out.translucent ? 1 : 0));

@@ -45,6 +45,21 @@ TEST_CASE("opacity rises from 0 to 1 across the softness about the threshold") {
     }
 }
 
+TEST_CASE(
+    "softness may be as small or great as a double: at its threshold, and where it is endless, opacity is a half") {
+    Scene scene = bright();
+    scene.objects = {box({-5, 20, -5}, {5, 30, 5})};
+    const Colour colour(0.1, 0.6, 0.9);
+    const Colour half = 0.5 * colour + 0.5 * behind(scene);
+    for (const double softness : {5e-324, 1e-30, 1e-15, 1e-3, 1.0, 1e15, 1e20, 1e300}) {
+        CAPTURE(softness);
+        scene.objects[0].paint = see_through(colour, {kT, 10.0, softness});
+        CHECK(middle_off(scene, {0, 0, 0}, {}, half) < kBlendStep);
+        scene.objects[0].paint = see_through(colour, {-10.0, 10.0, softness});
+        CHECK(middle_off(scene, {0, 0, 0}, {}, softness > 1e3 ? half : colour) < kBlendStep);
+    }
+}
+
 TEST_CASE("a ball opens towards its limb, its faces do not") {
     Scene scene = bright();
     scene.objects = {ball({0, 0, 0}, 5)};

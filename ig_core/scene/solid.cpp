@@ -188,6 +188,10 @@ bool positive_definite(const Sym3& m, const Sym3& adjugate, double determinant) 
     return m.xx > 0 && m.yy > 0 && m.zz > 0 && adjugate.xx > 0 && adjugate.yy > 0 && adjugate.zz > 0 && determinant > 0;
 }
 
+/// Q(centre) is 0 where it is no more than this share of its terms: the rounding of a cone's ten coefficients, by which
+/// its limb would be a hole.
+constexpr Quad kVanishes = 1e-15;
+
 void set_general(const GeneralQuadric& general, const std::vector<BoundingPlane>& planes, Solid& solid) {
     QuadQuadric q = expand(general);
     Quad largest = 0;
@@ -225,7 +229,8 @@ void set_general(const GeneralQuadric& general, const std::vector<BoundingPlane>
     solid.flat_sides = flat_sides(q, w, c);
     solid.axis = axis_of(q);
     solid.ellipsoid = rank == 3 && positive_definite(solid.m, solid.adjugate, solid.determinant);
-    solid.centre_value = rank == 3 ? std::abs(solid.c) : 0.0;
+    const Quad terms = magnitude(q.s) + magnitude(q.v[0] * anchor[0] + q.v[1] * anchor[1] + q.v[2] * anchor[2]);
+    solid.centre_value = rank == 3 && magnitude(c) > kVanishes * terms ? std::abs(solid.c) : 0.0;
     if (solid.ellipsoid) {
         // Largest semi-axis squared is -c / (smallest eigenvalue) <= -c trace(adj)/det, since the others' product is at
         // most that.

@@ -1,5 +1,6 @@
 #include "ig_core/scene/solid.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "tests/ig_core/exact_solid.h"
@@ -216,4 +217,13 @@ TEST_CASE("the limb function's scale is |Q(centre)|, and 0 where there is no cen
     }
     CHECK(scale_of(GeneralQuadric{{1, 1, -1, 0, 0, 0, -2, 0, 0, 1}}).first == 0);  // a cone
     CHECK(scale_of(GeneralQuadric{{1, 1, 0, 0, 0, 0, 0, 0, -1, 0}}).first == 0);   // a paraboloid
+    // Cones whose coefficients are rounded: x^2 + 2 y^2 - 3 z^2 about (a, b, c).
+    for (const auto& [a, b, c] :
+         {std::array{0.1, 0.2, 0.3}, std::array{1e-7 / 3, 1e-6 / 7, 1e-8}, std::array{1e5 / 3, -70.1, 1e3 / 7}}) {
+        CAPTURE(a, b, c);
+        CHECK(
+            scale_of(GeneralQuadric{{1, 2, -3, 0, 0, 0, -2 * a, -4 * b, 6 * c, a * a + 2 * b * b - 3 * c * c}}).first ==
+            0);
+    }
+    CHECK(scale_of(GeneralQuadric{{1, 1, 1, 0, 0, 0, -2e4, 0, 0, 1e8 - 0.01}}).first == Approx(0.01).epsilon(1e-5));
 }

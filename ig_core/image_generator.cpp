@@ -368,8 +368,8 @@ GroundTruth ImageGenerator::ground_truth(const View& view, Quality quality, cons
             const bool ground = surface.kind == Surface::Kind::ground;
             for (int c = run.from; c < run.to; ++c) {
                 const double u = depth.at(c + 0.5).u;
-                // A ray along the ground, which ends there to a rounding: it meets nothing.
-                if (ground && u <= 0.0) continue;
+                // A ray along the ground, or along a wall without end, that ends there to a rounding: it meets nothing.
+                if (u <= 0.0) continue;
                 const auto at = static_cast<std::size_t>(row.row) * static_cast<std::size_t>(image.width) +
                                 static_cast<std::size_t>(c);
                 truth.object_ids[at] = ground ? kGroundId : static_cast<std::int32_t>(surface.outline->object);

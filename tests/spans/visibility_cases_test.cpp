@@ -61,6 +61,24 @@ TEST_CASE("pixel centres along the horizon are ground at a depth or sky without 
     }
 }
 
+TEST_CASE("pixel centres along walls without end are wall at a depth or sky without one") {
+    CAPTURE(seed());
+    for (int trial = 0; trial < trials(40); ++trial) {
+        Randomness random(trial);
+        const double from = random.between(5, 50), to = from + random.between(1, 50);
+        Object wall;
+        wall.shape = GeneralQuadric{{1, 0, 0, 0, 0, 0, -from - to, 0, 0, from * to}};
+        const Attitude attitude{{0}, {random.chance(0.5) ? 90 : random.between(-90, 90)}, {0}};
+        const GroundTruth truth = ImageGenerator(scene_of({wall}, false))
+                                      .ground_truth(look({random.between(-90, 4), 0, 7}, attitude, 61, 5, 60));
+        int torn = 0;
+        for (std::size_t at = 0; at < truth.depth.size(); ++at)
+            torn += (truth.object_ids[at] == kSkyId) != std::isinf(truth.depth[at]) || truth.depth[at] <= 0;
+        CAPTURE(trial);
+        CHECK(torn == 0);
+    }
+}
+
 TEST_CASE("of objects given twice the first in the file is seen") {
     CAPTURE(seed());
     for (int trial = 0; trial < trials(40); ++trial) {

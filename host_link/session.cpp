@@ -20,7 +20,9 @@ bool is_angle(double degrees, double limit) { return within(degrees, -limit - kA
 
 Degrees heading_in_circle(Degrees heading) {
     const double turned = std::fmod(heading.value, 360.0);
-    return {turned < 0.0 ? turned + 360.0 : turned};
+    const double positive = turned < 0.0 ? turned + 360.0 : turned;
+    // A hair below north is 360 when it is rounded, and a turn to the left may end on -0: both are 0.
+    return {positive > 0.0 && positive < 360.0 ? positive : 0.0};
 }
 
 }  // namespace

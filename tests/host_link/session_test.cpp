@@ -5,6 +5,7 @@
 #include <new>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "host_link/session.h"
 #include "support.h"
@@ -87,6 +88,29 @@ TEST_CASE("A pose of the ownship becomes the newest state, the one before it is 
     CHECK(session.state().pose->sequence == 2);
     CHECK(session.state().host_frame == 6U);
     CHECK(session.state().newest_arrival == Time(23ms));
+}
+
+TEST_CASE("A heading is told in 0..360 without 360, and without a sign where it is 0") {
+    Session session(at_home());
+    std::uint32_t number = 0;
+    for (const auto& [sent, told] : {std::pair{-360.0F, 0.0},
+                                     {360.0F, 0.0},
+                                     {-0.0F, 0.0},
+                                     {-1e-20F, 0.0},
+                                     {-1e-45F, 0.0},
+                                     {-90.0F, 270.0},
+                                     {359.5F, 359.5},
+                                     {-0.5F, 359.5}}) {
+        auto entity = ownship();
+        entity.yaw = sent;
+        INFO("yaw " << sent);
+        CHECK(session.accept(message(ByteOrder::little, ig_control(number, number * 1667), entity), 0ms) ==
+              Verdict::pose);
+        ++number;
+        const double heading = session.state().pose->attitude.heading.value;
+        CHECK(heading == told);
+        CHECK_FALSE(std::signbit(heading));
+    }
 }
 
 TEST_CASE("A link's altitude offset moves the datum") {

@@ -61,15 +61,16 @@ std::optional<Reject> PoseAssembler::store(Channel& channel, const Message& mess
     if (!is_part(parameter.role) || (is_position(parameter.role) && parameter.source != settings_.position))
         return std::nullopt;
     const std::size_t place = place_in(parameter.role);
-    std::optional<Message>& upper = channel.upper_halves[place];
+    std::optional<UpperHalf>& upper = channel.upper_halves[place];
     std::optional<double> value = number_of(message);
     if (message.type == DataType::double_high) {
-        return std::exchange(upper, message) ? std::optional(Reject::lone_half) : std::nullopt;
+        return std::exchange(upper, UpperHalf{message, arrival}) ? std::optional(Reject::lone_half) : std::nullopt;
     }
     if (message.type == DataType::double_low) {
-        const bool pair =
-            upper && upper->node == message.node && static_cast<std::uint8_t>(upper->code + 1) == message.code;
-        if (pair) value = joined(*upper, message);
+        const bool pair = upper && upper->message.node == message.node &&
+                          static_cast<std::uint8_t>(upper->message.code + 1) == message.code &&
+                          arrival - upper->arrival <= settings_.timeout;
+        if (pair) value = joined(upper->message, message);
         upper.reset();
         if (!pair) return Reject::lone_half;
     }

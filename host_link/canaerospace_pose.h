@@ -22,7 +22,7 @@ struct PoseSettings {
 /// The commit rule. Each channel collects pitch, roll, heading, latitude, longitude and height. When the message with
 /// the commit identifier has come, the newest of each makes a pose, provided that none is older than the time-out:
 /// otherwise the pose is `incomplete_pose`. A float64 counts once both halves are there, DOUBLEH first and DOUBLEL with
-/// the next message code, of the same node; a half without its other is a `lone_half`.
+/// the next message code, of the same node, within the time-out; a half without its other is a `lone_half`.
 ///
 /// Of the channels that deliver poses, the lowest drives. One that has been silent for the time-out is left for the
 /// next pose of another; a lower one that comes back drives again after kSteady of whole poses.
@@ -57,6 +57,10 @@ class PoseAssembler {
         double value = 0.0;
         std::optional<Time> arrival;
     };
+    struct UpperHalf {
+        Message message;
+        Time arrival{};
+    };
     struct Counter {
         std::optional<Message> newest;
         Time arrival{};
@@ -65,7 +69,7 @@ class PoseAssembler {
     struct Channel {
         std::uint8_t number = 0;
         std::array<Part, kParts> parts{};
-        std::array<std::optional<Message>, kParts> upper_halves{};
+        std::array<std::optional<UpperHalf>, kParts> upper_halves{};
         std::array<Counter, kMostParameters> counters{};
         std::optional<Time> last_pose;
         Time steady_since{};

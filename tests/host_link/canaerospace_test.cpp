@@ -289,6 +289,19 @@ TEST_CASE("A pose needs all of its parts, none older than the time-out, and is c
     CHECK(session.state().pose->position.altitude == 101.0);
 }
 
+TEST_CASE("A half whose other comes after the time-out is a half alone") {
+    Session session(can_options());
+    CanHost host;
+    CHECK(give(session, host.pose(47.5), 0ms) == Verdict::pose);
+    const auto late = with_double(1036, 2, 47.6), in_time = with_double(1036, 4, 47.7);
+    give(session, late[0], 10ms);
+    CHECK(give(session, late[1], 261ms) == Verdict::rejected);
+    CHECK(session.statistics().rejected_for(Reject::lone_half) == 1);
+    give(session, in_time[0], 300ms);
+    CHECK(give(session, in_time[1], 550ms) == Verdict::no_pose);
+    CHECK(session.statistics().rejected_for(Reject::lone_half) == 1);
+}
+
 TEST_CASE("True heading is preferred to heading while it comes, and magnetic heading is never taken for either") {
     Session session(can_options());
     CanHost host;

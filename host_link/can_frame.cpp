@@ -14,6 +14,9 @@ namespace {
 constexpr std::uint32_t kExtended = 1U << 31, kRemote = 1U << 30, kError = 1U << 29;
 constexpr std::uint32_t kStandardMask = 0x7FF, kExtendedMask = 0x1FFFFFFF;
 constexpr std::size_t kHeader = 8;
+/// In the record's FD flags, as in Linux: a CAN FD frame.
+constexpr std::byte kFdFrame{4};
+constexpr std::size_t kFdDataSize = 64;
 constexpr std::size_t kStandardDigits = 3, kExtendedDigits = 8;
 
 CanFrame from_flags(std::uint32_t id_and_flags) {
@@ -54,6 +57,15 @@ bool is_raw_length(std::string_view text) {
            read_number<std::uint8_t>(text.substr(1), 16).value_or(0) > kCanDataSize;
 }
 
+/// What stands behind "ID##": a digit of flags, and data.
+bool is_fd_data(std::string_view text) {
+    const auto is_digit = [](char c) { return read_number<std::uint8_t>({&c, 1}, 16).has_value(); };
+    if (text.empty() || !is_digit(text.front())) return false;
+    std::string digits(text.substr(1));
+    std::erase(digits, '.');
+    return digits.size() % 2 == 0 && digits.size() <= 2 * kFdDataSize && std::ranges::all_of(digits, is_digit);
+}
+
 std::optional<CanFrame> candump_frame(std::string_view text) {
     const auto hash = text.find('#');
     if (hash != kStandardDigits && hash != kExtendedDigits) return std::nullopt;
@@ -67,6 +79,10 @@ std::optional<CanFrame> candump_frame(std::string_view text) {
     if (!data.empty() && (data.front() == 'R' || data.front() == 'r')) {
         frame.remote = true;
         return frame;
+    }
+    if (data.starts_with('#')) {
+        frame.fd = true;
+        return is_fd_data(data.substr(1)) ? std::optional(frame) : std::nullopt;
     }
     while (!data.empty()) {
         if (frame.size == kCanDataSize && is_raw_length(data)) break;
@@ -92,8 +108,8 @@ std::optional<CanFrame> can_frame(std::span<const std::byte> record) {
     if (record.size() < kHeader) return std::nullopt;
     CanFrame frame = from_flags(load<std::uint32_t>(record, 0, ByteOrder::big));
     const auto size = std::to_integer<std::uint8_t>(record[4]);
-    // Linux marks CAN FD by bit 2 of the flags, CAN XL by bit 7 of what is the length here.
-    const bool classic = (std::to_integer<unsigned>(record[5]) & 4U) == 0 && size <= kCanDataSize;
+    // Linux marks CAN XL by bit 7 of what is the length here.
+    const bool classic = (record[5] & kFdFrame) == std::byte{0} && size <= kCanDataSize;
     if (!classic || record.size() < kHeader + (frame.remote ? 0 : size)) return std::nullopt;
     if (frame.remote) return frame;
     frame.size = size;
@@ -107,6 +123,7 @@ std::array<std::byte, kCanRecordSize> can_record(const CanFrame& frame) {
         (frame.extended ? kExtended : 0) | (frame.remote ? kRemote : 0) | (frame.error ? kError : 0);
     store(std::span(record), 0, ByteOrder::big, frame.id | flags);
     record[4] = std::byte{frame.size};
+    if (frame.fd) record[5] = kFdFrame;
     std::ranges::copy(frame.data, record.begin() + kHeader);
     return record;
 }
@@ -131,6 +148,7 @@ std::string candump_line(const CandumpLine& line) {
                              static_cast<int>(frame.extended ? 8 : 3), frame.id | (frame.error ? kError : 0));
     std::string out(text.data(), static_cast<std::size_t>(used));
     if (frame.remote) return out + 'R';
+    if (frame.fd) return out + "#0";
     for (std::size_t i = 0; i < frame.size; ++i) {
         used = std::snprintf(text.data(), text.size(), "%02X", std::to_integer<unsigned>(frame.data[i]));
         out.append(text.data(), static_cast<std::size_t>(used));

@@ -25,13 +25,14 @@ struct CanFrame {
     bool extended = false;  ///< 29 bits
     bool remote = false;    ///< asks for data, carries none
     bool error = false;     ///< a controller's report, not a frame of the bus
+    bool fd = false;        ///< CAN FD: no host's, and its data is left out
     std::uint8_t size = 0;  ///< bytes of `data`, 0 to 8
     std::array<std::byte, kCanDataSize> data{};
 
     friend bool operator==(const CanFrame&, const CanFrame&) = default;
 };
 
-/// Absent where the record is cut, or holds a CAN FD or CAN XL frame.
+/// Absent where the record is cut, or holds a CAN FD or CAN XL frame: `fd` is never set.
 std::optional<CanFrame> can_frame(std::span<const std::byte> record);
 /// The whole 16 bytes, as Linux hands them to capture programs.
 std::array<std::byte, kCanRecordSize> can_record(const CanFrame& frame);
@@ -42,7 +43,7 @@ struct CandumpLine {
     CanFrame frame;
 };
 
-/// Absent for all that is not a classic frame: comments, CAN FD, damaged lines.
+/// Absent for all that is not a frame: comments, damaged lines, CAN XL.
 std::optional<CandumpLine> read_candump_line(std::string_view line);
 /// Without the line's end; microseconds, as can-utils of every age read them.
 std::string candump_line(const CandumpLine& line);

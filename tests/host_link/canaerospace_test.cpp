@@ -1,5 +1,4 @@
-// CAN frames and CANaerospace messages: the specification's own examples, other programs' readings, and the commit
-// rule.
+// CANaerospace messages: the specification's own examples, other programs' readings, and the commit rule.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -68,17 +67,6 @@ Verdict give(Session& session, const std::vector<canaerospace::Message>& message
     return last;
 }
 
-CanFrame random_frame(std::mt19937_64& random) {
-    CanFrame frame;
-    frame.extended = random() % 2 == 0;
-    frame.id = static_cast<std::uint32_t>(random() & (frame.extended ? 0x1FFFFFFFU : 0x7FFU));
-    frame.remote = random() % 16 == 0;
-    if (frame.remote) return frame;
-    frame.size = static_cast<std::uint8_t>(random() % 9);
-    for (std::size_t i = 0; i < frame.size; ++i) frame.data[i] = static_cast<std::byte>(random());
-    return frame;
-}
-
 }  // namespace
 
 TEST_CASE("CANaerospace messages read as the specification's examples mean them") {
@@ -107,71 +95,6 @@ TEST_CASE("What is no CANaerospace message is refused by its reason") {
     CHECK(reason(frame_of("141#0102000742B400")) == "bad_size");
     CHECK(reason(frame_of("1FFFFFFF#0102000742B40000")) == "unknown_channel");
     CHECK(reason(frame_of("00FF0141#0102000742B40000")) == "taken");
-}
-
-TEST_CASE("An identifier of three digits is one of eleven bits") {
-    CHECK(read_candump_line("(1.000000) can0 7FF#01020007"));
-    CHECK_FALSE(read_candump_line("(1.000000) can0 800#01020007"));
-}
-
-TEST_CASE("A length code above 8 behind the data is the frame of eight bytes that it belongs to") {
-    for (const char code : std::string("9ABCDEFaf"))
-        CHECK(frame_of(std::string("141#0102000742B40000_") + code) == frame_of("141#0102000742B40000"));
-    for (const char* line : {"141#0102000742B40000_8", "141#0102000742B40000_", "141#0102000742B40000_99",
-                             "141#0102000742B400_9", "141#0102000742B4000000"})
-        CHECK_FALSE(read_candump_line("(1.000000) can0 " + std::string(line)));
-}
-
-TEST_CASE("Any frame survives the record and the log line, and tshark reads the log alike") {
-    const std::uint64_t seed = std::random_device{}();
-    INFO("seed " << seed);
-    std::mt19937_64 random(seed);
-    std::vector<CanFrame> frames;
-    const auto path = scratch("random.log");
-    std::ofstream log(path);
-    for (int i = 0; i < 500; ++i) {
-        frames.push_back(random_frame(random));
-        CHECK(can_frame(can_record(frames.back())) == frames.back());
-        const Time time = 1795325181s + i * 1234us;
-        const std::string line = candump_line({time, "vcan0", frames.back()});
-        const auto back = read_candump_line(line);
-        REQUIRE(back);
-        CHECK(back->time == time);
-        CHECK(back->interface == "vcan0");
-        CHECK(back->frame == frames.back());
-        log << line << '\n';
-    }
-    log.close();
-    const auto rows = tshark_fields(path, {"can.id", "can.flags.xtd", "can.flags.rtr", "can.len", "frame.time_epoch"});
-    REQUIRE(rows.size() == frames.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        INFO(i);
-        CHECK(std::stoul(rows[i][0]) == frames[i].id);
-        CHECK(rows[i][1] == (frames[i].extended ? "1" : "0"));
-        CHECK(rows[i][2] == (frames[i].remote ? "1" : "0"));
-        CHECK(std::stoul(rows[i][3]) == frames[i].size);
-    }
-}
-
-TEST_CASE("No bytes and no text make the CAN readers fail") {
-    const std::uint64_t seed = std::random_device{}();
-    INFO("seed " << seed);
-    std::mt19937_64 random(seed);
-    Session session(can_options());
-    const std::string alphabet = "(). #0123456789ABCDEFR_vcan\n";
-    for (int i = 0; i < 20000; ++i) {
-        Bytes record(random() % 24);
-        for (auto& byte : record) byte = static_cast<std::byte>(random() % 4 == 0 ? random() % 32 : random());
-        session.accept(record, i * 1ms);
-        session.accept(can_record(random_frame(random)), i * 1ms);
-        std::string line = random() % 2 == 0 ? "(1.000000) can0 141#0102000742B40000" : "";
-        for (std::size_t n = random() % 12; n > 0; --n) {
-            const char c = alphabet[random() % alphabet.size()];
-            line.insert(random() % (line.size() + 1), 1, c);
-        }
-        read_candump_line(line);
-    }
-    CHECK(session.statistics().datagrams == 40000);
 }
 
 TEST_CASE("Every pose of the recorded CANaerospace flight agrees with the simulator's own log") {

@@ -166,17 +166,16 @@ void add_accuracy(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("accuracy", "Measure speed against error of every quality setting");
     const auto options = std::make_shared<AccuracyOptions>();
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
-    command.add_option("--path", options->path, "The cameras (required)")->required()->option_text("CAMERAS.json");
+    add_option(command, "--path", options->path, read_path, "The cameras (required)", "CAMERAS.json")->required();
     add_option(command, "--size", options->size, read_size, "Pixels of the picture (default 640x480)", "WxH");
     add_threads_option(command, options->threads);
     command.add_option("--runs", options->runs, "Paired runs, 1..10000 (default 15)")
         ->check(CLI::Range(1, 10000))
         ->option_text("N");
-    command.add_option("--json", options->json, "Write all figures, by camera too")->option_text("FILE.json");
-    command.add_option("--plot", options->plot, "Plot frame time against PSNR")->option_text("FILE.svg");
-    CLI::Option* ladder =
-        command.add_option("--ladder", options->ladder, "Make a quality ladder of the settings worth having")
-            ->option_text("LADDER.toml");
+    add_option(command, "--json", options->json, read_path, "Write all figures, by camera too", "FILE.json");
+    add_option(command, "--plot", options->plot, read_path, "Plot frame time against PSNR", "FILE.svg");
+    CLI::Option* ladder = add_option(command, "--ladder", options->ladder, read_path,
+                                     "Make a quality ladder of the settings worth having", "LADDER.toml");
     command
         .add_flag("--against-finest", options->against_finest,
                   "Errors against the finest setting's picture, not the exact one: for large pictures")

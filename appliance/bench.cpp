@@ -71,7 +71,7 @@ void add_bench(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("bench", "Measure frame times along a camera path, without sinks");
     const auto options = std::make_shared<BenchOptions>();
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
-    command.add_option("--path", options->path, "The camera path (required)")->required()->option_text("CAMERAS.json");
+    add_option(command, "--path", options->path, read_path, "The camera path (required)", "CAMERAS.json")->required();
     add_option(command, "--frames", options->frames, read_count, "How many (default: one from each camera)", "N");
     add_picture_options(command, *options);
     command.footer(kBenchNotes);

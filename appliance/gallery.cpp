@@ -74,10 +74,10 @@ constexpr const char* kGalleryExamples =
 void add_gallery(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("gallery", "Draw all scenes of a directory, and a page of them");
     const auto options = std::make_shared<GalleryOptions>();
-    command.add_option("-o,--output", options->output, "Write NAME.png and contact_sheet.png here (required)")
-        ->required()
-        ->option_text("DIRECTORY");
-    command.add_option("--scenes", options->scenes, "Where the scenes and their cameras are")->option_text("DIRECTORY");
+    add_option(command, "-o,--output", options->output, read_path,
+               "Write NAME.png and contact_sheet.png here (required)", "DIRECTORY")
+        ->required();
+    add_option(command, "--scenes", options->scenes, read_path, "Where the scenes and their cameras are", "DIRECTORY");
     add_option(command, "--size", options->size, read_size, "Pixels of each picture (default: 1280x720)", "WxH");
     add_option(command, "--quality", options->quality, read_quality,
                config::step_names(config::shipped_ladder()) + " (default: best)", "NAME");

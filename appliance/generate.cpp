@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "appliance/commands.h"
+#include "appliance/option_values.h"
 #include "appliance/output_files.h"
 #include "config/scene_file.h"
 #include "display/atomic_file.h"
@@ -41,8 +42,8 @@ void add_generate(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("generate", "Write a scene with its clusters as objects");
     const auto options = std::make_shared<GenerateOptions>();
     command.add_option("scene", options->scene, "The scene")->required()->option_text("SCENE.toml");
-    command.add_option("-o,--output", options->output, "Write it here (default: to standard output)")
-        ->option_text("FILE.toml");
+    add_option(command, "-o,--output", options->output, read_path, "Write it here (default: to standard output)",
+               "FILE.toml");
     command.footer(kGenerateExamples);
     command.callback([options, &action] { action = [options] { generate(*options); }; });
 }

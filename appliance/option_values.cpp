@@ -13,7 +13,7 @@ namespace quadrig::appliance {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& expected) {
-    throw CLI::ValidationError("'" + text + "'", "expected " + expected);
+    throw BadValue("'" + text + "': expected " + expected);
 }
 
 double number_in(const std::string& text, const std::string& expected, bool (*holds)(double)) {
@@ -23,6 +23,8 @@ double number_in(const std::string& text, const std::string& expected, bool (*ho
 }
 
 }  // namespace
+
+std::string last_of(const std::string& names) { return names.substr(names.rfind(',') + 1); }
 
 glm::dvec3 read_triple(const std::string& text) {
     const auto fail = [&] {
@@ -93,13 +95,13 @@ host::LinkUrl read_link(const std::string& text) {
     try {
         return host::parse_link_url(text);
     } catch (const host::LinkUrlError& error) {
-        throw CLI::ValidationError("--link", error.what());
+        throw BadValue(error.what());
     }
 }
 
 host::LinkUrl read_live_link(const std::string& text) {
     host::LinkUrl url = read_link(text);
-    if (!url.live) throw CLI::ValidationError("link '" + text + "'", "needs ADDRESS:PORT, or on CAN an interface");
+    if (!url.live) throw BadValue("link '" + text + "': needs ADDRESS:PORT, or on CAN an interface");
     return url;
 }
 
@@ -113,6 +115,11 @@ config::ApplianceSettings::EntityModel read_entity(const std::string& text) {
 
 std::string read_sink(const std::string& text) {
     if (!display::is_sink_url(text)) refuse(text, "a sink: " + std::string(display::kSinkUrls));
+    return text;
+}
+
+std::filesystem::path read_path(const std::string& text) {
+    if (text.empty() || text.front() == '-') refuse(text, "a file's name (./-NAME where it begins with a dash)");
     return text;
 }
 

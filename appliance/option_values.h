@@ -1,10 +1,12 @@
-/// Values of options as they are written on the command line. What cannot be read is a CLI::ValidationError, which says
-/// what can.
+/// Values of options as they are written on the command line. What cannot be read is a BadValue, which says what can;
+/// the option's name is put before it where the option is added.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "config/appliance_file.h"
@@ -13,6 +15,10 @@
 #include "ig_core/geometry/space.h"
 
 namespace quadrig::appliance {
+
+struct BadValue : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
 
 /// "3,0,-8": three numbers, each within 1e9.
 glm::dvec3 read_triple(const std::string& text);
@@ -38,6 +44,22 @@ host::LinkUrl read_live_link(const std::string& text);
 /// "12=x-29": a host's entity type and the model it is drawn as.
 config::ApplianceSettings::EntityModel read_entity(const std::string& text);
 std::string read_sink(const std::string& text);
+/// A file or directory. No name at all, as a script's unset variable gives, is not "no file"; and a name that begins
+/// with a dash is the next option, taken for this one's value.
+std::filesystem::path read_path(const std::string& text);
+
+/// "--output" of "-o,--output".
+std::string last_of(const std::string& names);
+
+/// What `read` makes of the text that stands behind option `name`.
+template <class Value>
+Value value_of(const std::string& name, const std::string& text, Value (*read)(const std::string&)) {
+    try {
+        return read(text);
+    } catch (const BadValue& bad) {
+        throw CLI::ValidationError(name, bad.what());
+    }
+}
 
 /// Adds an option whose text `read` turns into `target`. A list takes one value each time the option is given.
 template <class Value, class Target>
@@ -45,7 +67,9 @@ CLI::Option* add_option(CLI::App& command, const std::string& names, Target& tar
                         const std::string& description, const std::string& value_name) {
     return command
         .add_option_function<std::string>(
-            names, [&target, read](const std::string& text) { target = read(text); }, description)
+            names,
+            [&target, read, name = last_of(names)](const std::string& text) { target = value_of(name, text, read); },
+            description)
         ->option_text(value_name);
 }
 template <class Value>
@@ -55,8 +79,8 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& names, std::v
     return command
         .add_option_function<std::vector<std::string>>(
             names,
-            [&target, read](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) target.push_back(read(text));
+            [&target, read, name = last_of(names)](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) target.push_back(value_of(name, text, read));
             },
             description)
         ->allow_extra_args(false)

@@ -138,9 +138,8 @@ void add_outline(CLI::App& program, Action& action) {
     add_option(command, "--size", options->size, read_size, "Pixels of each panel (default: 480x480)", "WxH");
     add_option(command, "--fov", options->fov, read_field_of_view, "Horizontal field of view, degrees (default: 30)",
                "DEG");
-    command.add_option("-o,--output", options->figure, "Write the figure (required)")
-        ->required()
-        ->option_text("FIGURE.svg");
+    add_option(command, "-o,--output", options->figure, read_path, "Write the figure (required)", "FIGURE.svg")
+        ->required();
     command.footer(kOutlineExamples);
     command.callback([options, &action] { action = [options] { outline(*options); }; });
 }

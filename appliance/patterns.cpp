@@ -40,7 +40,7 @@ constexpr const char* kPatternsExamples =
 void add_patterns(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("patterns", "Name the texture patterns, and draw a sheet of them");
     const auto options = std::make_shared<PatternsOptions>();
-    command.add_option("-o,--output", options->sheet, "Draw the sheet")->option_text("SHEET.png");
+    add_option(command, "-o,--output", options->sheet, read_path, "Draw the sheet", "SHEET.png");
     add_option(command, "--time", options->seconds, read_scene_time, "Scene time, which patterns drift by (default 0)",
                "S");
     command.footer(kPatternsExamples);

@@ -98,11 +98,11 @@ void add_render(CLI::App& program, Action& action) {
         ->required();
     add_option(command, "--time", options->seconds, read_scene_time,
                "Scene time, by which textures drift and objects move (default 0)", "S");
-    command.add_option("-o,--output", options->picture, "Write the picture")->option_text("PICTURE.png");
-    command.add_option("--object-ids", options->object_ids, "Write which object is seen")->option_text("IDS.npy");
-    command.add_option("--surface-ids", options->surface_ids, "Write which of its surfaces is seen")
-        ->option_text("IDS.npy");
-    command.add_option("--depth", options->depth, "Write how deep it is seen")->option_text("K.npy");
+    add_option(command, "-o,--output", options->picture, read_path, "Write the picture", "PICTURE.png");
+    add_option(command, "--object-ids", options->object_ids, read_path, "Write which object is seen", "IDS.npy");
+    add_option(command, "--surface-ids", options->surface_ids, read_path, "Write which of its surfaces is seen",
+               "IDS.npy");
+    add_option(command, "--depth", options->depth, read_path, "Write how deep it is seen", "K.npy");
     auto* reference = command.add_flag("--reference", options->reference,
                                        "Draw by exact rays instead of the image generator: slow, to judge by");
     command.add_option("--samples", options->samples, "With --reference: N x N rays a pixel, 1..64 (default 4)")

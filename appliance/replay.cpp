@@ -215,10 +215,8 @@ void add_replay(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("replay", "Play a recorded flight through the image generator");
     const auto options = std::make_shared<ReplayOptions>();
     command.add_option("recording", options->recording, "The recording")->required()->option_text("RECORDING");
-    command
-        .add_option("appliance", options->appliance,
-                    "The settings file of the live run, for its entities; options win over it")
-        ->option_text("[APPLIANCE.toml]");
+    add_option(command, "appliance", options->appliance, read_path,
+               "The settings file of the live run, for its entities; options win over it", "[APPLIANCE.toml]");
     add_option(command, "--link", options->link, read_link,
                "The recording's protocol, cigi:, fdm:, can: or modbus:,\nwith options such as\ncigi:?ownship=3 "
                "(default: what it holds)",

@@ -180,16 +180,16 @@ constexpr const char* kRunNotes =
 void add_run(CLI::App& program, Action& action) {
     CLI::App& command = *program.add_subcommand("run", "Draw live, driven by a host over the network");
     const auto options = std::make_shared<LiveOptions>();
-    command.add_option("appliance", options->appliance, "Settings in a file; options win over it")
-        ->option_text("[APPLIANCE.toml]");
+    add_option(command, "appliance", options->appliance, read_path, "Settings in a file; options win over it",
+               "[APPLIANCE.toml]");
     add_list_option(command, "--link", options->settings.links, read_live_link,
                     "Where a host is listened to: cigi://ADDRESS:PORT,\nfdm://ADDRESS:PORT, can://INTERFACE or\n"
                     "modbus://ADDRESS:PORT (required; may be given again)",
                     "URL");
     add_host_options(command, *options);
     add_picture_options(command, *options);
-    command.add_option("--record", options->record, "Write what the host sends into a recording (one link only)")
-        ->option_text("FILE");
+    add_option(command, "--record", options->record, read_path,
+               "Write what the host sends into a recording (one link only)", "FILE");
     command.add_flag("--fifo", options->fifo, "Ask for real-time priority (SCHED_FIFO; needs the privilege)");
     command.footer(kRunNotes);
     command.callback([options, &action] { action = [options] { run(*options); }; });

@@ -21,15 +21,15 @@ void add_picture_options(CLI::App& command, RunOptions& options) {
             "--quality", settings.quality,
             "A step of the quality ladder: " + config::quality_names(config::shipped_ladder()) + "\n(default: default)")
         ->option_text("NAME");
-    command.add_option("--ladder", options.ladder, "A quality ladder of your own (quadrig accuracy makes them)")
-        ->option_text("LADDER.toml");
-    command.add_option("--report", options.report, "Write the run's report to a file, as JSON")
-        ->option_text("FILE.json");
+    add_option(command, "--ladder", options.ladder, read_path,
+               "A quality ladder of your own (quadrig accuracy makes them)", "LADDER.toml");
+    add_option(command, "--report", options.report, read_path, "Write the run's report to a file, as JSON",
+               "FILE.json");
 }
 
 void add_host_options(CLI::App& command, RunOptions& options) {
     config::ApplianceSettings& settings = options.settings;
-    command.add_option("--scene", settings.scene, "The scene to fly through (required)")->option_text("SCENE.toml");
+    add_option(command, "--scene", settings.scene, read_path, "The scene to fly through (required)", "SCENE.toml");
     add_list_option(command, "--sink", settings.sinks, read_sink,
                     "Where pictures go: png:DIRECTORY, y4m:FILE (y4m:- is standard\n"
                     "output), none:. May be given again (default: nowhere)",
@@ -37,8 +37,8 @@ void add_host_options(CLI::App& command, RunOptions& options) {
     add_list_option(command, "--entity", settings.entities, read_entity,
                     "Draw the host's entities of a type as a model of config/models.\nMay be given again",
                     "TYPE=MODEL");
-    command.add_option("--contact-sheet", options.contact_sheet, "Write a page of evenly spaced frames")
-        ->option_text("FILE.png");
+    add_option(command, "--contact-sheet", options.contact_sheet, read_path, "Write a page of evenly spaced frames",
+               "FILE.png");
     add_option(command, "--fov", settings.fov, read_field_of_view, "Horizontal field of view, degrees (default 60)",
                "DEG");
     command.add_flag("--ignore-host-window", options.ignore_host_window,

@@ -128,7 +128,7 @@ std::string conditions(const AccuracyOptions& options) {
 }
 
 void accuracy(const AccuracyOptions& options) {
-    expect_outputs({options.json, options.plot, options.ladder});
+    expect_outputs({options.json, options.plot, options.ladder}, {}, {options.scene, options.path});
     const std::vector<SettingResult> results = measure(options);
     std::cout << conditions(options) << '\n' << accuracy_table(results);
     if (!options.json.empty()) {

@@ -31,7 +31,7 @@ std::vector<View> views_along(const std::vector<config::Camera>& cameras, const 
 }
 
 void bench(const BenchOptions& options) {
-    expect_outputs({options.report});
+    expect_outputs({options.report}, {}, {options.scene, options.path, options.ladder});
     watch_stop_signals();
     const PictureSettings settings = picture_settings(options, options.settings);
     const std::vector<View> views = views_along(config::read_camera_path(options.path), settings.size);

@@ -104,7 +104,7 @@ FigureRow row_of(const Scene& scene, const Object& object, const OutlineOptions&
 
 void outline(const OutlineOptions& options) {
     if (options.eye && !options.attitude) throw WrongUse("--eye needs --attitude: where to look from there");
-    expect_outputs({options.figure});
+    expect_outputs({options.figure}, {}, {options.scene});
     const Scene scene = config::read_scene(options.scene);
     std::vector<const Object*> objects;
     for (const std::string& name : options.objects) objects.push_back(&object_named(scene, name, options.scene));

@@ -20,7 +20,7 @@ struct PatternsOptions {
 };
 
 void patterns(const PatternsOptions& options) {
-    expect_outputs({options.sheet});
+    expect_outputs({options.sheet}, {}, {});
     const std::vector<Texture> all = config::read_patterns();
     if (all.empty()) throw std::runtime_error("there is no patterns.toml in " + config::config_directory().string());
     for (const Texture& pattern : all) std::cout << pattern.name << '\n';

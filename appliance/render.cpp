@@ -50,7 +50,7 @@ void write_ground_truth(const RenderOptions& options, const GroundTruth& truth) 
 void render(const RenderOptions& options) {
     if (options.picture.empty() && !options.wants_ground_truth())
         throw WrongUse("nothing to make; ask for -o picture.png, --object-ids, --surface-ids or --depth");
-    expect_outputs({options.picture, options.object_ids, options.surface_ids, options.depth});
+    expect_outputs({options.picture, options.object_ids, options.surface_ids, options.depth}, {}, {options.scene});
     Scene scene = scene_at(config::read_scene(options.scene), options.seconds);
     const View view = view_of(options);
     Environment environment;

@@ -125,7 +125,8 @@ config::ApplianceSettings settings_of(const ReplayOptions& options) {
 void replay(const ReplayOptions& options) {
     const config::ApplianceSettings given = settings_of(options);
     if (!given.scene) throw WrongUse("--scene is missing: what is there to see?");
-    expect_outputs({options.report, options.contact_sheet}, given.sinks);
+    expect_outputs({options.report, options.contact_sheet}, given.sinks,
+                   {options.recording, *given.scene, options.appliance, options.ladder});
     if (options.link && options.link->live)
         throw WrongUse("link '" + options.link->text +
                        "': a recording's is named without an address: cigi:, fdm:, can: or modbus:");

@@ -107,7 +107,8 @@ config::ApplianceSettings settings_of(const LiveOptions& options) {
         throw WrongUse("--link is missing: who is to drive? Say for example cigi://127.0.0.1:8004");
     if (!options.record.empty() && settings.links.size() != 1)
         throw WrongUse("--record takes one link, beside those of entities: a recording is one host's");
-    expect_outputs({options.report, options.contact_sheet, options.record}, settings.sinks);
+    expect_outputs({options.report, options.contact_sheet, options.record}, settings.sinks,
+                   {*settings.scene, options.appliance, options.ladder});
     return settings;
 }
 

@@ -119,6 +119,11 @@ TEST_CASE("Wrong use is exit status 2, with the reason on standard error and not
         {{"run", "--scene", scene, "--link", "fdm://127.0.0.1:0", "--sink", "png:x", "--sink", "png:./x"}, "png:./x"},
         {{"run", "--scene", scene, "--link", "fdm://127.0.0.1:0", "--record", "x", "--report", "x"},
          "x is given twice"},
+        {Arguments{"render", scene} + kStill + Arguments{"--depth", "/." + scene},
+         "/." + scene + " would write over " + scene + ", which is read"},
+        {{"replay", flight, "--scene", scene, "--fast", "--sink", "y4m:" + flight}, "would write over " + flight},
+        {{"run", "--scene", scene, "--link", "fdm://127.0.0.1:0", "--record", scene}, "would write over " + scene},
+        {{"bench", scene, "--path", cameras, "--report", cameras}, "would write over " + cameras},
         {render + kStill + Arguments{"--samples", "2"}, "--reference"},
         {render + kStill + Arguments{"--reference", "--samples", "0"}, "--samples"},
         {render + kStill + Arguments{"--reference", "--quality", "best"}, "--quality"},
@@ -249,6 +254,26 @@ TEST_CASE("Standard output that cannot be written to is a failure") {
         const std::string command = std::string(QUADRIG_PROGRAM) + " " + asked + " 2>/dev/null >/dev/full";
         CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
     }
+}
+
+TEST_CASE("Nothing else goes where the video on standard output goes, but two files may go to a device") {
+    const std::string out = scratch_directory(), scene = scratch_file("scene.toml", small_scene());
+    const std::string flight = shipped("config/traces/canaerospace-c172-takeoff.log");
+    const std::string play = std::string(QUADRIG_PROGRAM) + " replay '" + flight +
+                             "' --fast --frames 2 --size 8x8 --scene '" + scene + "' --sink y4m:- --report ";
+    const auto status = [&](const std::string& rest) {
+        return WEXITSTATUS(std::system(("cd '" + out + "'; { " + play + rest).c_str()));
+    };
+    for (const std::string& rest :
+         std::vector<std::string>{"/dev/stdout 2>err >video; }", "video 2>err >video; }",
+                                  "/dev/stdout 2>err; echo $? >code; } | cat >video; exit $(cat code)"}) {
+        INFO(rest);
+        CHECK(status(rest) == 2);
+        CHECK_THAT(text_of(out + "/err"), Contains("is given twice (as y4m:-)"));
+    }
+    CHECK(status("/dev/null 2>err >/dev/null; }") == 0);
+    CHECK(status("report.json 2>err >video; }") == 0);
+    CHECK(read_y4m(text_of(out + "/video")).frames == 2);
 }
 
 TEST_CASE("A standard stream that was closed is no output file: nothing but its own goes into one") {

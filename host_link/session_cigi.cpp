@@ -1,5 +1,7 @@
 // A CIGI message taken as a whole, and what its packets about views do to the session's state.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <variant>
 
 #include "host_link/session.h"
@@ -42,6 +44,10 @@ std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Tim
                            std::span<std::byte, cigi::StartOfFrame::kSize> out) {
     cigi::StartOfFrame packet;
     packet.minor_version = host.minor_version;
+    // Readers take the packet's size from its minor version: 24 bytes from 3.2 on.
+    if (host.format.version == cigi::Version::three)
+        packet.minor_version = host.separate_counters ? std::max<std::uint8_t>(packet.minor_version, 2)
+                                                      : std::min<std::uint8_t>(packet.minor_version, 1);
     packet.database = host.database;
     packet.mode = ig_mode(host.mode);
     packet.timestamp_valid = true;

@@ -251,6 +251,24 @@ TEST_CASE("Start Of Frame answers in the host's byte order and version, with bot
     }
 }
 
+TEST_CASE("Start Of Frame's minor version is one of its size, whatever a host's IG Control claims") {
+    for (const int claimed : {0, 1, 2, 3, 15}) {
+        for (const bool since_32 : {true, false}) {
+            INFO("minor version " << claimed << (since_32 ? " in 24 bytes" : " in 16 bytes"));
+            Session session(SessionOptions{});
+            auto ig = ig_control(1);
+            ig.minor_version = static_cast<std::uint8_t>(claimed);
+            if (!since_32) ig.last_ig_frame.reset();
+            session.accept(message(ByteOrder::little, ig), 0ms);
+            std::array<std::byte, cigi::StartOfFrame::kSize> bytes{};
+            const std::size_t size = start_of_frame(session.reply_context().value(), 7, 0ms, false, bytes);
+            CHECK(size == (since_32 ? 24 : 16));
+            const int told = std::to_integer<int>(bytes[5]) >> 4;
+            CHECK(told == (since_32 ? std::max(claimed, 2) : std::min(claimed, 1)));
+        }
+    }
+}
+
 TEST_CASE("A database is told as loading until the host has taken notice, then as loaded, and another is not there") {
     for (const auto available : {std::optional<std::int8_t>(), std::optional<std::int8_t>(3)}) {
         SessionOptions options;

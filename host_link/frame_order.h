@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
+
+#include "host_link/host_state.h"
 
 namespace quadrig::host {
 
@@ -18,14 +21,15 @@ enum class Arrival : std::uint8_t {
 ///
 /// A number that was seen before tells a doubled message from a restarted host by the message's bytes: a network
 /// repeats them, a host that counts anew does not. A number more than kWindow behind, or kFarAhead in front, is a
-/// restart.
+/// restart; so is any that does not go on after kLate without a newer one: no network holds a message back for so long.
 class FrameOrder {
   public:
     static constexpr std::uint32_t kWindow = 256;
     static constexpr std::uint32_t kFarAhead = 1U << 16;
+    static constexpr Time kLate = std::chrono::seconds(1);
 
     /// `fingerprint`: a hash of the whole message.
-    Arrival arrive(std::uint32_t frame, std::uint64_t fingerprint);
+    Arrival arrive(std::uint32_t frame, std::uint64_t fingerprint, Time arrival);
 
     /// The next number begins a new count, whichever it is.
     void forget() { newest_.reset(); }
@@ -35,9 +39,10 @@ class FrameOrder {
     }  ///< numbers that never came; a late one is no longer lost
 
   private:
-    void start(std::uint32_t frame, std::uint64_t fingerprint);
+    void start(std::uint32_t frame, std::uint64_t fingerprint, Time arrival);
 
     std::optional<std::uint32_t> newest_;
+    Time newest_arrival_{};
     std::array<std::optional<std::uint64_t>, kWindow>
         seen_{};  ///< by frame modulo kWindow, of the kWindow newest numbers
     std::uint64_t lost_ = 0;

@@ -140,7 +140,7 @@ class Session {
     Verdict accept_modbus(std::span<const std::byte> frame, Time arrival, std::uint32_t source);
     modbus::PoseRegisters& registers_of(std::uint32_t source);
     Verdict accept_cigi(std::span<const std::byte> datagram, Time arrival);
-    Arrival order(const cigi::Message& message, std::span<const std::byte> datagram);
+    Arrival order(const cigi::Message& message, std::span<const std::byte> datagram, Time arrival);
     /// What an answer needs to know of the message that asks.
     struct Asking {
         cigi::Format format;

@@ -59,16 +59,16 @@ std::size_t start_of_frame(const ReplyContext& host, std::uint32_t ig_frame, Tim
     return cigi::encode(packet, host.format, out);
 }
 
-Arrival Session::order(const cigi::Message& message, std::span<const std::byte> datagram) {
+Arrival Session::order(const cigi::Message& message, std::span<const std::byte> datagram, Time arrival) {
     // Before 3.2 a host that runs in step sends back the image generator's own counter, which says nothing about its
     // messages.
     if (!message.ig_control.last_ig_frame) return Arrival::next;
-    const Arrival arrival = frame_order_.arrive(message.ig_control.host_frame, fingerprint(datagram));
+    const Arrival place = frame_order_.arrive(message.ig_control.host_frame, fingerprint(datagram), arrival);
     statistics_.lost = frame_order_.lost();
-    if (arrival == Arrival::duplicate) ++statistics_.duplicate;
-    if (arrival == Arrival::late) ++statistics_.reordered;
-    if (arrival == Arrival::restart) restart();
-    return arrival;
+    if (place == Arrival::duplicate) ++statistics_.duplicate;
+    if (place == Arrival::late) ++statistics_.reordered;
+    if (place == Arrival::restart) restart();
+    return place;
 }
 
 Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) {
@@ -79,7 +79,7 @@ Verdict Session::accept_cigi(std::span<const std::byte> datagram, Time arrival) 
         return reject(Reject::unknown_version);
     for (auto rest = message.packets; !rest.empty();) ++statistics_.packets[next_packet(rest, message.format).id];
 
-    const Arrival place = order(message, datagram);
+    const Arrival place = order(message, datagram, arrival);
     if (place == Arrival::duplicate) return Verdict::duplicate;
     if (place == Arrival::late) return Verdict::reordered;
 

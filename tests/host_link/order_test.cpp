@@ -11,6 +11,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr Time kNow{};
+
 /// A message's fingerprint, the same for the same frame of the same run of the host.
 std::uint64_t print(std::uint32_t frame, std::uint64_t run = 0) { return (run << 32) + frame + 1; }
 
@@ -18,52 +20,67 @@ std::uint64_t print(std::uint32_t frame, std::uint64_t run = 0) { return (run <<
 
 TEST_CASE("Frames in sequence are new, gaps are lost, repeats are duplicates") {
     FrameOrder order;
-    CHECK(order.arrive(10, print(10)) == Arrival::next);
-    CHECK(order.arrive(11, print(11)) == Arrival::next);
-    CHECK(order.arrive(11, print(11)) == Arrival::duplicate);
-    CHECK(order.arrive(14, print(14)) == Arrival::next);
+    CHECK(order.arrive(10, print(10), kNow) == Arrival::next);
+    CHECK(order.arrive(11, print(11), kNow) == Arrival::next);
+    CHECK(order.arrive(11, print(11), kNow) == Arrival::duplicate);
+    CHECK(order.arrive(14, print(14), kNow) == Arrival::next);
     CHECK(order.lost() == 2);
-    CHECK(order.arrive(13, print(13)) == Arrival::late);
+    CHECK(order.arrive(13, print(13), kNow) == Arrival::late);
     CHECK(order.lost() == 1);
-    CHECK(order.arrive(13, print(13)) == Arrival::duplicate);
-    CHECK(order.arrive(10, print(10)) == Arrival::duplicate);
+    CHECK(order.arrive(13, print(13), kNow) == Arrival::duplicate);
+    CHECK(order.arrive(10, print(10), kNow) == Arrival::duplicate);
     CHECK(order.lost() == 1);
 }
 
 TEST_CASE("A frame before the first one seen is late but was never lost") {
     FrameOrder order;
-    order.arrive(1, print(1));
-    CHECK(order.arrive(0, print(0)) == Arrival::late);
+    order.arrive(1, print(1), kNow);
+    CHECK(order.arrive(0, print(0), kNow) == Arrival::late);
     CHECK(order.lost() == 0);
 }
 
 TEST_CASE("Frame numbers wrap") {
     FrameOrder order;
-    order.arrive(0xFFFFFFFE, print(1));
-    CHECK(order.arrive(0xFFFFFFFF, print(2)) == Arrival::next);
-    CHECK(order.arrive(0, print(3)) == Arrival::next);
-    CHECK(order.arrive(2, print(4)) == Arrival::next);
+    order.arrive(0xFFFFFFFE, print(1), kNow);
+    CHECK(order.arrive(0xFFFFFFFF, print(2), kNow) == Arrival::next);
+    CHECK(order.arrive(0, print(3), kNow) == Arrival::next);
+    CHECK(order.arrive(2, print(4), kNow) == Arrival::next);
     CHECK(order.lost() == 1);
-    CHECK(order.arrive(1, print(5)) == Arrival::late);
+    CHECK(order.arrive(1, print(5), kNow) == Arrival::late);
 }
 
 TEST_CASE("A host that counts from zero again is heard at once, after a long run and after a short one") {
     for (const std::uint32_t length : {5000U, 30U, 1U}) {
         INFO("after " << length << " frames");
         FrameOrder order;
-        for (std::uint32_t f = 0; f < length; ++f) order.arrive(f, print(f));
-        CHECK(order.arrive(0, print(0, 1)) == Arrival::restart);
-        CHECK(order.arrive(1, print(1, 1)) == Arrival::next);
+        for (std::uint32_t f = 0; f < length; ++f) order.arrive(f, print(f), kNow);
+        CHECK(order.arrive(0, print(0, 1), kNow) == Arrival::restart);
+        CHECK(order.arrive(1, print(1, 1), kNow) == Arrival::next);
         CHECK(order.lost() == 0);
     }
 }
 
+TEST_CASE("After a second without a newer message, one that does not go on is a host that counts anew") {
+    for (const std::uint32_t again : {30U, 40U, 59U, 10U}) {
+        INFO("from " << again);
+        FrameOrder order;
+        for (std::uint32_t f = 30; f < 60; ++f) order.arrive(f, print(f), kNow);
+        // Until then the network may have held it back, or sent it twice.
+        CHECK(order.arrive(again, print(again), kNow + 999ms) == (again < 30 ? Arrival::late : Arrival::duplicate));
+        CHECK(order.arrive(again, print(again), kNow + 1000ms) == Arrival::restart);
+        CHECK(order.arrive(again + 1, print(again + 1), kNow + 1016ms) == Arrival::next);
+    }
+    FrameOrder order;
+    order.arrive(5, print(5), kNow);
+    CHECK(order.arrive(6, print(6), kNow + 60s) == Arrival::next);
+}
+
 TEST_CASE("A jump far ahead is a new count, not a thousand losses") {
     FrameOrder order;
-    order.arrive(0, print(0));
-    CHECK(order.arrive(1U << 20, print(1)) == Arrival::restart);
+    order.arrive(0, print(0), kNow);
+    CHECK(order.arrive(1U << 20, print(1), kNow) == Arrival::restart);
     CHECK(order.lost() == 0);
-    CHECK(order.arrive((1U << 20) + 1000, print(2)) == Arrival::next);
+    CHECK(order.arrive((1U << 20) + 1000, print(2), kNow) == Arrival::next);
     CHECK(order.lost() == 999);
 }
 
@@ -91,7 +108,7 @@ TEST_CASE("Over a network that loses, doubles and reorders, every count is what 
         std::set<std::uint32_t> different;
         for (const auto f : wire) {
             different.insert(f);
-            switch (order.arrive(f, print(f))) {
+            switch (order.arrive(f, print(f), kNow)) {
                 case Arrival::next:
                     REQUIRE((f > newest || taken == 0));
                     newest = f;

@@ -4,6 +4,9 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "appliance/commands.h"
@@ -21,6 +24,9 @@ struct SendOptions {
     double speed = 1.0;
 };
 
+/// Ten years: a time that a clock can still be ahead by.
+constexpr std::chrono::duration<double, std::nano> kEver = std::chrono::hours(24 * 3650);
+
 void send(const SendOptions& options) {
     if (!options.to) throw WrongUse("--to is missing: where to?");
     if (options.to->port == 0) throw WrongUse("--to " + options.to->text + ": nobody listens at port 0");
@@ -31,21 +37,29 @@ void send(const SendOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const host::Time first = capture.datagrams.front().captured;
     std::uint64_t sent = 0, failed = 0;
+    std::error_code failure;  // the first
     for (const auto& datagram : capture.datagrams) {
         const std::chrono::duration<double, std::nano> since = (datagram.captured - first) / options.speed;
-        const auto due = start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
+        const auto due =
+            start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::min(since, kEver));
         while (!stop_requested() && std::chrono::steady_clock::now() < due)
             std::this_thread::sleep_until(
                 std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
         if (stop_requested()) break;
-        ++(sender->send(capture.payload(datagram), datagram.source) ? sent : failed);
+        const std::error_code refused = sender->send(capture.payload(datagram), datagram.source);
+        ++(refused ? failed : sent);
+        if (!failure) failure = refused;
+        if (refused == std::errc::broken_pipe || refused == std::errc::connection_reset) break;
     }
-    std::cerr << "quadrig: " << sent << " sent, " << failed << " not\n";
+    const std::string counts = std::to_string(sent) + " sent, " + std::to_string(failed) + " not";
+    if (failure) throw std::runtime_error(counts + ": " + options.to->text + ": " + failure.message());
+    std::cerr << "quadrig: " << counts << '\n';
 }
 
 constexpr const char* kSendNotes =
     "Whatever the recording's host sent, byte for byte, at its own pace: a host for those who have none. What comes\n"
-    "back is not looked at.\n\n"
+    "back is not looked at. Exit status 1 where something could not be sent, such as to a port at which nobody\n"
+    "listens; the rest is sent all the same, but over a connection that is lost.\n\n"
     "Examples:\n"
     "  quadrig send config/traces/netfdm-c172-takeoff.pcap --to fdm://127.0.0.1:5500\n"
     "  quadrig send config/traces/canaerospace-c172-takeoff.log --to can://vcan0 --speed 2";

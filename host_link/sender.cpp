@@ -32,14 +32,20 @@ Descriptor connected_socket(const LinkUrl& url, int type) {
     return connected;
 }
 
-bool send_all(const Descriptor& socket, std::span<const std::byte> bytes) {
-    return send(socket.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+std::error_code send_all(const Descriptor& socket, std::span<const std::byte> bytes) {
+    const auto sent = send(socket.fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0) return last_error();
+    // A stream that took a part cannot take the next packet: where this one ends nobody could tell.
+    return static_cast<std::size_t>(sent) == bytes.size() ? std::error_code()
+                                                          : std::make_error_code(std::errc::broken_pipe);
 }
 
 class InternetSender final : public Sender {
   public:
     explicit InternetSender(const LinkUrl& url) : socket_(connected_socket(url, url.tcp ? SOCK_STREAM : SOCK_DGRAM)) {}
-    bool send(std::span<const std::byte> bytes, std::uint32_t) override { return send_all(socket_, bytes); }
+    std::error_code send(std::span<const std::byte> bytes, std::uint32_t) override { return send_all(socket_, bytes); }
 
   private:
     Descriptor socket_;
@@ -48,17 +54,17 @@ class InternetSender final : public Sender {
 class CanSender final : public Sender {
   public:
     explicit CanSender(const LinkUrl& url) : socket_(can_socket(url, 0, "cannot send there")) {}
-    bool send(std::span<const std::byte> bytes, std::uint32_t) override {
+    std::error_code send(std::span<const std::byte> bytes, std::uint32_t) override {
         const auto record = host::can_frame(bytes);
-        if (!record) return false;
+        if (!record) return std::make_error_code(std::errc::bad_message);
         const struct ::can_frame frame = to_kernel(*record);
         // A queue that is full empties at the bus's own pace.
         for (int attempt = 0; attempt < kPatience; ++attempt) {
-            if (write(socket_.fd, &frame, sizeof frame) == sizeof frame) return true;
-            if (errno != ENOBUFS && errno != EINTR) return false;
+            if (write(socket_.fd, &frame, sizeof frame) == sizeof frame) return {};
+            if (errno != ENOBUFS && errno != EINTR) return last_error();
             poll(nullptr, 0, 1);
         }
-        return false;
+        return std::make_error_code(std::errc::no_buffer_space);
     }
 
   private:
@@ -68,19 +74,20 @@ class CanSender final : public Sender {
 class ModbusSender final : public Sender {
   public:
     explicit ModbusSender(const LinkUrl& url) : url_(url) { connection(0); }
-    bool send(std::span<const std::byte> bytes, std::uint32_t source) override {
+    std::error_code send(std::span<const std::byte> bytes, std::uint32_t source) override {
         const Descriptor& server = connection(source);
-        if (!send_all(server, bytes)) return false;
+        if (const auto failure = send_all(server, bytes)) return failure;
         modbus::FrameBuffer answer;
         std::array<std::byte, modbus::kLargestFrame> received{};
         pollfd waiting{server.fd, POLLIN, 0};
         while (poll(&waiting, 1, kPatience) == 1) {
             const auto size = recv(server.fd, received.data(), received.size(), 0);
-            if (size <= 0) return false;
+            if (size < 0) return last_error();
+            if (size == 0) return std::make_error_code(std::errc::connection_reset);
             std::span<const std::byte> stream(received.data(), static_cast<std::size_t>(size));
-            if (answer.next(stream)) return true;
+            if (answer.next(stream)) return {};
         }
-        return false;
+        return std::make_error_code(std::errc::timed_out);
     }
 
   private:

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <system_error>
 
 #include "host_link/link_url.h"
 
@@ -15,10 +16,10 @@ class Sender {
     Sender(const Sender&) = delete;
     Sender& operator=(const Sender&) = delete;
 
-    /// A datagram, a CAN record or a Modbus request of the connection `source`, as Capture holds them; whether it left.
-    /// UDP that nobody listens to is not an error: the next may find somebody. Waits where the bus or the server is
-    /// slow.
-    virtual bool send(std::span<const std::byte> bytes, std::uint32_t source) = 0;
+    /// A datagram, a CAN record or a Modbus request of the connection `source`, as Capture holds them; why it did not
+    /// leave, or no error. The next one may: UDP finds a host that has come meanwhile. A connection is lost for good
+    /// with broken_pipe or connection_reset. Waits where the bus or the server is slow.
+    virtual std::error_code send(std::span<const std::byte> bytes, std::uint32_t source) = 0;
 };
 
 /// To where `given` says, which is a live one with a port. Throws std::runtime_error with the URL and the system's

@@ -236,6 +236,26 @@ TEST_CASE("A link can be watched, and its host's oddities reported") {
     CHECK_THAT(report.err, Catch::Contains("does not conform"));
 }
 
+TEST_CASE("What could not be sent makes sending a failure, with its count and reason") {
+    const auto flight = fdm_climb(10);
+    const auto send_to = [&](const std::string& to) {
+        return quadrig_program({"send", flight, "--to", to, "--speed", "10"});
+    };
+    int port = 0;
+    {
+        Program monitor({"monitor", "fdm://127.0.0.1:0"});
+        port = monitor.number_after("listens on port ").value();
+        const Outcome sent = send_to("fdm://127.0.0.1:" + std::to_string(port));
+        CHECK(sent.status == 0);
+        CHECK(sent.err == "quadrig: 10 sent, 0 not\n");
+    }
+    const std::string url = "fdm://127.0.0.1:" + std::to_string(port);
+    const Outcome refused = send_to(url);
+    CHECK(refused.status == 1);
+    CHECK_THAT(refused.err, Catch::Contains(" not: " + url + ": Connection refused"));
+    CHECK_FALSE(Catch::Contains(" 0 not").match(refused.err));
+}
+
 TEST_CASE("What cannot be recorded or sent is said before anything runs") {
     const auto out = scratch_directory();
     const auto fails = [&](const Arguments& arguments, int status, const std::string& reason) {

@@ -6,6 +6,16 @@
 
 namespace quadrig::appliance {
 
+namespace {
+
+host::Verdict play(const host::Capture& capture, std::size_t index, host::Session& session) {
+    for (const auto& closing : capture.closed_before(index)) session.connection_closes(closing.source);
+    const host::Capture::Datagram& datagram = capture.datagrams[index];
+    return session.accept(capture.payload(datagram), datagram.captured, datagram.source);
+}
+
+}  // namespace
+
 Playback::Playback(const host::Capture& capture, const host::SessionOptions& options)
     : capture_(capture), session_(options) {
     bool found = false;
@@ -23,10 +33,7 @@ Playback::Playback(const host::Capture& capture, const host::SessionOptions& opt
     for (std::size_t i = next_; i < capture.datagrams.size(); ++i) end_ = std::max(end_, capture.datagrams[i].captured);
 }
 
-host::Verdict Playback::play_next() {
-    const host::Capture::Datagram& datagram = capture_.datagrams[next_++];
-    return session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
-}
+host::Verdict Playback::play_next() { return play(capture_, next_++, session_); }
 
 const host::HostState& Playback::state_at(host::Time time) {
     while (next_ < capture_.datagrams.size() && capture_.datagrams[next_].captured <= time) play_next();
@@ -47,8 +54,7 @@ void RunAgain::play_to(std::uint64_t heard) {
     for (; next_ < heard; ++next_) {
         for (; next_change_ < changes.size() && changes[next_change_].heard <= next_; ++next_change_)
             session_.host_changes();
-        const host::Capture::Datagram& datagram = capture_.datagrams[next_];
-        session_.accept(capture_.payload(datagram), datagram.captured, datagram.source);
+        play(capture_, next_, session_);
     }
 }
 

@@ -46,6 +46,8 @@ void send(const SendOptions& options) {
             std::this_thread::sleep_until(
                 std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
         if (stop_requested()) break;
+        const auto index = static_cast<std::size_t>(&datagram - capture.datagrams.data());
+        for (const auto& closing : capture.closed_before(index)) sender->close(closing.source);
         const std::error_code refused = sender->send(capture.payload(datagram), datagram.source);
         ++(refused ? failed : sent);
         if (!failure) failure = refused;

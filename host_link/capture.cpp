@@ -163,6 +163,9 @@ Read read_pcap(const std::filesystem::path& path) {
         add(read, captured, {{}, stream.source, stream.destination, stream.destination_port, true}, frame,
             stream.number);
     };
+    const auto end_stream = [&read](std::uint32_t number) {
+        read.capture.closings.push_back({read.capture.datagrams.size(), number});
+    };
     pcap_pkthdr* header = nullptr;
     const unsigned char* data = nullptr;
     int status = 0;
@@ -181,7 +184,7 @@ Read read_pcap(const std::filesystem::path& path) {
             continue;
         }
         if (const auto* segment = std::get_if<TcpSegment>(&result)) {
-            if (!streams.feed(*segment, captured, take_frame)) ++counts.not_udp;
+            if (!streams.feed(*segment, captured, take_frame, end_stream)) ++counts.not_udp;
             continue;
         }
         switch (std::get<NotUdp>(result)) {
@@ -205,7 +208,10 @@ Read read_pcap(const std::filesystem::path& path) {
 void select(Capture& capture, const std::vector<std::size_t>& flow_of, std::size_t flow) {
     std::vector<Capture::Datagram> datagrams;
     std::vector<std::byte> bytes;
+    auto closing = capture.closings.begin();
     for (std::size_t i = 0; i < capture.datagrams.size(); ++i) {
+        for (; closing != capture.closings.end() && closing->datagrams <= i; ++closing)
+            closing->datagrams = datagrams.size();
         if (flow_of[i] != flow) continue;
         Capture::Datagram datagram = capture.datagrams[i];
         const auto payload = capture.payload(datagram);
@@ -213,6 +219,8 @@ void select(Capture& capture, const std::vector<std::size_t>& flow_of, std::size
         datagrams.push_back(datagram);
         bytes.insert(bytes.end(), payload.begin(), payload.end());
     }
+    // Nothing comes after these.
+    capture.closings.erase(closing, capture.closings.end());
     capture.counts.other_flow = capture.datagrams.size() - datagrams.size();
     capture.datagrams = std::move(datagrams);
     capture.bytes = std::move(bytes);
@@ -238,6 +246,11 @@ std::string text(const Flow& flow) {
     const bool v6 = flow.destination.find(':') != std::string::npos;
     return flow.source + " -> " + (v6 ? '[' + flow.destination + ']' : flow.destination) + ':' +
            std::to_string(flow.destination_port);
+}
+
+std::span<const Capture::Closing> Capture::closed_before(std::size_t datagram) const {
+    const auto found = std::ranges::equal_range(closings, datagram, {}, &Closing::datagrams);
+    return {found.begin(), found.end()};
 }
 
 bool is_candump_log(const std::filesystem::path& path) {

@@ -41,9 +41,16 @@ struct Capture {
         std::uint32_t source = 0;  ///< Modbus: which of the file's connections it came over, counted from 0
     };
 
+    /// Modbus: a connection that was closed.
+    struct Closing {
+        std::size_t datagrams = 0;  ///< before it
+        std::uint32_t source = 0;
+    };
+
     Protocol protocol = Protocol::cigi;
     Flow flow;
     std::vector<Datagram> datagrams;  ///< in the file's order
+    std::vector<Closing> closings;    ///< in the file's order
     std::vector<std::byte> bytes;
     CaptureCounts counts;
     std::optional<std::string>
@@ -52,6 +59,8 @@ struct Capture {
     [[nodiscard]] std::span<const std::byte> payload(const Datagram& d) const {
         return std::span(bytes).subspan(d.offset, d.size);
     }
+    /// What was closed after the datagram before this one.
+    [[nodiscard]] std::span<const Closing> closed_before(std::size_t datagram) const;
 };
 
 /// Whether a file holds a frame as candump writes it (-l, -L) within its first 4096 bytes.

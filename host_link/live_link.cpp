@@ -48,6 +48,12 @@ Verdict LiveLink::hear(Heard heard) {
     return session_->accept(heard.bytes, heard.arrival, heard.source);
 }
 
+void LiveLink::connection_closes(Heard heard) {
+    heard.closes = true;
+    if (tap_) tap_(heard);
+    session_->connection_closes(heard.source);
+}
+
 void LiveLink::host_changes() {
     session_->host_changes();
     ++changes_;

@@ -93,6 +93,8 @@ class LiveLink {
     [[nodiscard]] std::unique_lock<std::mutex> lock_session() const { return std::unique_lock(session_mutex_); }
     /// With the session locked: folds it into the session, and tells the tap.
     Verdict hear(Heard heard);
+    /// With the session locked: nothing more is heard of the connection that `heard` came over; it has no bytes.
+    void connection_closes(Heard heard);
     /// With the session locked: what is heard next is another host's.
     void host_changes();
     Session& session() { return *session_; }

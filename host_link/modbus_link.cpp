@@ -51,7 +51,11 @@ void ModbusLink::receive() {
         auto next = waiting.begin() + 2;
         for (Client& client : clients_)
             if ((next++)->revents != 0) hear_client(client);
-        clients_.remove_if([](const Client& client) { return client.gone; });
+        for (auto client = clients_.begin(); client != clients_.end();)
+            if (client->gone)
+                client = let_go(client);
+            else
+                ++client;
         if (waiting[1].revents != 0) admit();
     }
 }
@@ -69,10 +73,16 @@ void ModbusLink::admit() {
     if (clients_.size() == kMostClients) {
         const auto idle = std::ranges::min_element(clients_, {}, &Client::heard);
         if (now - idle->heard < kIdle) return refuse(Reject::too_many_clients);
-        clients_.erase(idle);
+        let_go(idle);
     }
     switch_on(connection->socket.fd, IPPROTO_TCP, TCP_NODELAY);
     clients_.push_back({*std::move(connection), connections_++, now, {}, false});
+}
+
+std::list<ModbusLink::Client>::iterator ModbusLink::let_go(std::list<Client>::iterator client) {
+    const auto lock = lock_session();
+    connection_closes({clock_time(CLOCK_MONOTONIC), {}, client->number, client->connection.from, own_port_});
+    return clients_.erase(client);
 }
 
 void ModbusLink::hear_client(Client& client) {

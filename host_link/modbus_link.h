@@ -41,6 +41,7 @@ class ModbusLink final : public LiveLink {
 
     void receive() override;
     void admit();
+    std::list<Client>::iterator let_go(std::list<Client>::iterator client);
     void hear_client(Client& client);
     bool answer(Client& client, std::span<const std::byte> frame);
     void refresh_status();

@@ -143,6 +143,7 @@ bool Monitor::tell(const ToldPacket& packet) {
 }
 
 void Monitor::hear(const Heard& heard) {
+    if (heard.closes) return session_->connection_closes(heard.source);
     newest_ = heard.arrival;
     if (!first_) first_ = viewed_ = heard.arrival;
     const LinkStatistics before = statistics();

@@ -41,13 +41,14 @@ Result udp(Bytes segment, const IpAddress& source, const IpAddress& destination)
 }
 
 Result tcp(Bytes segment, const IpAddress& source, const IpAddress& destination) {
-    constexpr unsigned kSyn = 2;
+    constexpr unsigned kFin = 1, kSyn = 2, kReset = 4;
     if (segment.size() < kTcpHeader) return NotUdp::other_protocol;
     const std::size_t header = std::size_t{4} * (u8(segment, 12) >> 4);
     if (header < kTcpHeader || header > segment.size()) return NotUdp::other_protocol;
-    const bool begins = (u8(segment, 13) & kSyn) != 0;
+    const bool begins = (u8(segment, 13) & kSyn) != 0, ends = (u8(segment, 13) & (kFin | kReset)) != 0;
     const std::uint32_t sequence = load<std::uint32_t>(segment, 4, ByteOrder::big) + (begins ? 1U : 0U);
-    return TcpSegment{source, destination, u16(segment, 0), u16(segment, 2), sequence, begins, segment.subspan(header)};
+    return TcpSegment{source, destination, u16(segment, 0),        u16(segment, 2), sequence,
+                      begins, ends,        segment.subspan(header)};
 }
 
 Result transport(std::uint8_t protocol, Bytes segment, const IpAddress& source, const IpAddress& destination) {

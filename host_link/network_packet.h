@@ -29,6 +29,7 @@ struct TcpSegment {
     std::uint16_t source_port = 0, destination_port = 0;
     std::uint32_t sequence = 0;  ///< of the payload's first byte, or of the one after SYN
     bool begins = false;         ///< SYN: the stream starts here
+    bool ends = false;           ///< FIN or RST: it ends with the payload
     std::span<const std::byte> payload;
 };
 

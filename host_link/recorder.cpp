@@ -62,11 +62,12 @@ void Recorder::hear(const Heard& heard) {
     const std::lock_guard lock(mutex_);
     const HostChange now{recorded_.load(std::memory_order_relaxed)};
     for (std::uint32_t change = 0; change < heard.changes; ++change) pending_changes_ += line_of(now);
-    if (pending_.size() > kMostPending) {
+    if (pending_.size() > kMostPending && !heard.closes) {
         left_out_.fetch_add(1, std::memory_order_relaxed);
         return;
     }
     pending_ += text_.piece(heard, heard.arrival + since_1970_);
+    if (heard.closes) return;
     recorded_.fetch_add(1, std::memory_order_relaxed);
 }
 

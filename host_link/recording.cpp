@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kTcp = 6, kUdp = 17;
 constexpr std::uint16_t kLinkRaw = 101, kLinkCan = 227;
-constexpr std::uint8_t kSyn = 2, kPushAck = 0x18;
+constexpr std::uint8_t kSyn = 2, kPushAck = 0x18, kFinAck = 0x11;
 
 template <class T>
 void put(std::string& out, T value, ByteOrder order) {
@@ -115,19 +115,34 @@ std::string RecordingText::ip_packet(const Heard& heard, std::uint8_t protocol, 
     return out + segment;
 }
 
-std::string RecordingText::tcp_segment(const Heard& heard, std::span<const std::byte> payload, std::uint32_t sequence,
-                                       bool begins) {
+std::string RecordingText::tcp_segment(const Heard& heard, std::uint8_t flags, std::uint32_t sequence) {
     std::string segment;
     net16(segment, port_of(heard.from));
     net16(segment, heard.to_port);
     net32(segment, sequence);
-    net32(segment, begins ? 0 : 1);
+    net32(segment, flags == kSyn ? 0 : 1);
     net8(segment, 0x50);
-    net8(segment, begins ? kSyn : kPushAck);
+    net8(segment, flags);
     net16(segment, 0xFFFF);
     net32(segment, 0);
-    append(segment, payload);
+    if (flags == kPushAck) append(segment, heard.bytes);
     return ip_packet(heard, kTcp, segment);
+}
+
+std::string RecordingText::modbus_piece(const Heard& heard, Time time) {
+    const auto next = next_sequence_.find(heard.source);
+    if (heard.closes) {
+        if (next == next_sequence_.end()) return {};  // nothing of it is in the recording
+        const std::uint32_t end = next->second;
+        next_sequence_.erase(next);
+        return block(tcp_segment(heard, kFinAck, end), time);
+    }
+    std::uint32_t& sequence = next != next_sequence_.end() ? next->second : next_sequence_[heard.source];
+    std::string out;
+    if (next == next_sequence_.end()) out = block(tcp_segment(heard, kSyn, sequence++), time);
+    out += block(tcp_segment(heard, kPushAck, sequence), time);
+    sequence += static_cast<std::uint32_t>(heard.bytes.size());
+    return out;
 }
 
 std::string RecordingText::piece(const Heard& heard, Time time) {
@@ -138,14 +153,8 @@ std::string RecordingText::piece(const Heard& heard, Time time) {
             const auto frame = can_frame(heard.bytes);
             return frame ? candump_line({time, interface_, *frame}) + '\n' : std::string();
         }
-        case Protocol::modbus: {
-            std::string out;
-            const auto [next, is_new] = next_sequence_.try_emplace(heard.source, 1U);
-            if (is_new) out += block(tcp_segment(heard, {}, 0, true), time);
-            out += block(tcp_segment(heard, heard.bytes, next->second, false), time);
-            next->second += static_cast<std::uint32_t>(heard.bytes.size());
-            return out;
-        }
+        case Protocol::modbus:
+            return modbus_piece(heard, time);
         case Protocol::cigi:
         case Protocol::flightgear_fdm:
             break;

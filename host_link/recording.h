@@ -26,6 +26,7 @@ struct Heard {
     sockaddr_storage from{};    ///< not CAN
     std::uint16_t to_port = 0;  ///< not CAN
     std::uint32_t changes = 0;  ///< how often the link has passed to another host since the one before
+    bool closes = false;        ///< Modbus: the connection's end, without bytes; nothing that is counted
 };
 
 enum class RecordingFormat : std::uint8_t { pcapng, candump };
@@ -43,8 +44,8 @@ class RecordingText {
 
   private:
     std::string ip_packet(const Heard& heard, std::uint8_t protocol, const std::string& segment) const;
-    std::string tcp_segment(const Heard& heard, std::span<const std::byte> payload, std::uint32_t sequence,
-                            bool begins);
+    std::string tcp_segment(const Heard& heard, std::uint8_t flags, std::uint32_t sequence);
+    std::string modbus_piece(const Heard& heard, Time time);
     [[nodiscard]] std::string block(std::span<const char> packet, Time time) const;
 
     Protocol protocol_;

@@ -90,6 +90,8 @@ class ModbusSender final : public Sender {
         return std::make_error_code(std::errc::timed_out);
     }
 
+    void close(std::uint32_t source) override { connections_.erase(source); }
+
   private:
     const Descriptor& connection(std::uint32_t source) {
         const auto known = connections_.find(source);

@@ -20,6 +20,8 @@ class Sender {
     /// leave, or no error. The next one may: UDP finds a host that has come meanwhile. A connection is lost for good
     /// with broken_pipe or connection_reset. Waits where the bus or the server is slow.
     virtual std::error_code send(std::span<const std::byte> bytes, std::uint32_t source) = 0;
+    /// Modbus: ends the connection `source`.
+    virtual void close(std::uint32_t /*source*/) {}
 };
 
 /// To where `given` says, which is a live one with a port. Throws std::runtime_error with the URL and the system's

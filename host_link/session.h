@@ -96,6 +96,8 @@ class Session {
     /// all, but for single packets whose values are out of range. Allocates nothing.
     /// `source` tells a Modbus host's connection from others.
     Verdict accept(std::span<const std::byte> datagram, Time arrival, std::uint32_t source = 0);
+    /// Modbus: no more comes over this connection. The next host need not wait until it is taken for gone.
+    void connection_closes(std::uint32_t source);
     /// Counts what a link refused before it was a datagram.
     void refuse(Reject reason) { reject(reason); }
     /// The next datagram is of another host than the last: nothing of the two is comparable.
@@ -229,6 +231,7 @@ class Session {
         std::uint32_t source = 0;
         std::uint16_t sequence = 0;
         Time commit{};
+        bool closed = false;
     };
     std::array<ModbusHost, kMostModbusHosts> modbus_hosts_{};
     std::optional<ModbusDriving> modbus_driving_;

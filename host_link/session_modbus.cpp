@@ -35,23 +35,29 @@ Verdict Session::accept_modbus(std::span<const std::byte> frame, Time arrival, s
     const auto* host = std::get_if<modbus::HostPose>(&written);
     if (host == nullptr) return Verdict::no_pose;
 
-    const auto driving = modbus_driving_;
-    // A host that has not committed for so long has left the picture to another.
-    if (driving && driving->source != source && arrival - driving->commit < options_.silence)
-        return reject(Reject::other_host);
-    if (driving) {
+    if (const auto& driving = modbus_driving_) {
+        const bool known = driving->source == source;
+        // A host that has not committed for so long, or has hung up, has left the picture to another.
+        const bool silent = arrival - driving->commit >= options_.silence;
+        if (!known && !silent && !driving->closed) return reject(Reject::other_host);
         const auto ahead = static_cast<std::uint16_t>(host->sequence - driving->sequence);
-        if (driving->source == source && ahead == 0) {
+        if (known && ahead == 0) {
             ++statistics_.duplicate;
             return Verdict::duplicate;
         }
-        if (driving->source != source || ahead > kFarthestAhead)
-            restart();
-        else
+        // A host may have a connection for each request: it goes on counting.
+        const bool goes_on = (known || (driving->closed && !silent)) && ahead != 0 && ahead <= kFarthestAhead;
+        if (goes_on)
             statistics_.lost += ahead - 1U;
+        else
+            restart();
     }
-    modbus_driving_ = ModbusDriving{source, host->sequence, arrival};
+    modbus_driving_ = ModbusDriving{source, host->sequence, arrival, false};
     return take(arrival, host->pose, modbus_clock_.read(host->time));
+}
+
+void Session::connection_closes(std::uint32_t source) {
+    if (modbus_driving_ && modbus_driving_->source == source) modbus_driving_->closed = true;
 }
 
 std::uint16_t Session::modbus_sequence() const {

@@ -2,9 +2,17 @@
 
 namespace quadrig::host {
 
+TcpStreams::Key TcpStreams::key_of(const TcpSegment& segment) {
+    return {segment.source, segment.destination, segment.source_port, segment.destination_port};
+}
+
+std::optional<std::uint32_t> TcpStreams::number_of(const TcpSegment& segment) const {
+    const auto known = streams_.find(key_of(segment));
+    return known == streams_.end() ? std::nullopt : std::optional(known->second.number);
+}
+
 TcpStreams::Stream& TcpStreams::stream_of(const TcpSegment& segment) {
-    const Key key{segment.source, segment.destination, segment.source_port, segment.destination_port};
-    const auto [place, is_new] = streams_.try_emplace(key);
+    const auto [place, is_new] = streams_.try_emplace(key_of(segment));
     // A port that is used again is another connection.
     if (is_new || segment.begins)
         place->second =

@@ -42,9 +42,11 @@ class TcpStreams {
     };
 
     /// Gives each frame that is complete with the segment to `take(stream, captured, frame)`; whether there was any, or
-    /// the beginning of one. A frame was captured when the last of its segments was.
-    template <class Take>
-    bool feed(const TcpSegment& segment, Time captured, Take take) {
+    /// the beginning of one. A frame was captured when the last of its segments was. `end(number)` is told of streams
+    /// that close, or whose port another connection uses.
+    template <class Take, class End>
+    bool feed(const TcpSegment& segment, Time captured, Take take, End end) {
+        if (const auto before = segment.begins ? number_of(segment) : std::nullopt) end(*before);
         Stream& stream = stream_of(segment);
         if (is_early(stream, segment)) {
             hold(stream, segment, captured);
@@ -53,6 +55,7 @@ class TcpStreams {
         }
         const bool modbus = read(stream, segment.sequence, segment.payload, captured, take);
         catch_up(stream, captured, take);
+        if (segment.ends) end(stream.number);
         return modbus;
     }
     /// What still waits, once there is no more.
@@ -69,6 +72,9 @@ class TcpStreams {
         friend auto operator<=>(const Key&, const Key&) = default;
     };
 
+    static Key key_of(const TcpSegment& segment);
+    /// Of the stream that the segment's ports have had so far.
+    [[nodiscard]] std::optional<std::uint32_t> number_of(const TcpSegment& segment) const;
     Stream& stream_of(const TcpSegment& segment);
     static bool is_early(const Stream& stream, const TcpSegment& segment);
     static void hold(Stream& stream, const TcpSegment& segment, Time captured);

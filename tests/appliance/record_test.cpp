@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <vector>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <set>
@@ -22,8 +23,11 @@ namespace {
 
 std::string scene_to_fly() { return scratch_file("scene.toml", small_scene()); }
 
-/// A Modbus host's flight as a capture: the climb of fdm_climb, 60 poses a second.
-std::filesystem::path modbus_climb(const std::filesystem::path& file, int count) {
+enum class Connections { one, each };
+
+/// A Modbus host's flight as a capture: the climb of fdm_climb, 60 poses a second, over one connection or one for each.
+std::filesystem::path modbus_climb(const std::filesystem::path& file, int count,
+                                   Connections connections = Connections::one) {
     host::RecordingText text(host::Protocol::modbus, host::RecordingFormat::pcapng, {});
     std::ofstream out(file, std::ios::binary);
     out << text.begin();
@@ -37,7 +41,13 @@ std::filesystem::path modbus_climb(const std::filesystem::path& file, int count)
         const auto block = host::modbus::float_block(pose, {});
         std::array<std::byte, host::modbus::kLargestFrame> frame{};
         heard.bytes = std::span(frame).first(host::modbus::write_request(n, 0, block, frame));
-        out << text.piece(heard, 1'700'000'000s + i * 16667us);
+        const auto time = 1'700'000'000s + i * 16667us;
+        out << text.piece(heard, time);
+        if (connections == Connections::one) continue;
+        heard.closes = true;
+        out << text.piece(heard, time);
+        heard.closes = false;
+        ++heard.source;
     }
     return file;
 }
@@ -103,6 +113,22 @@ TEST_CASE("A Modbus host's live run is recorded, tshark reads it, and it gives t
     const auto poses = host::test::tshark_fields(flight, {"modbus.func_code", "modbus.regval_uint16"});
     CHECK(poses[3][0] == "16");
     CHECK_THAT(poses[3][1], Catch::StartsWith("1,2,0,32,16455,41287,44564,31457,"));
+}
+
+TEST_CASE("A Modbus host with a connection for each request drives every frame, live and from its recording") {
+    const auto out = scratch_directory();
+    const TwoReports reports =
+        live_and_again("modbus", modbus_climb(out / "flight.pcapng", 45, Connections::each), out / "run.pcapng");
+    check_the_same(reports);
+    for (const auto* report : {&reports.live, &reports.again}) {
+        const auto& link = (*report)["links"][0];
+        CHECK(link["frames"] == 45);
+        CHECK(link["rejected"].empty());
+        CHECK(link["restarts"] == 0);
+        CHECK(link["lost"] == 0);
+    }
+    const auto ends = host::test::tshark_fields(out / "run.pcapng", {"tcp.flags.fin"});
+    CHECK(std::ranges::count(ends, std::vector<std::string>{"1"}) >= 44);
 }
 
 TEST_CASE("A run with a body of another link, its quality chosen as it went, gives the same frames bit for bit") {

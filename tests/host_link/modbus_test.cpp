@@ -272,6 +272,23 @@ TEST_CASE("A stream in any pieces gives the same frames, and no bytes make the r
     }
 }
 
+TEST_CASE("A host whose connection closed goes on over its next one, and another begins anew, without waiting") {
+    Session session = modbus_session();
+    CHECK(session.accept(pose_frame(7), 0ms, 1) == Verdict::pose);
+    CHECK(session.accept(pose_frame(8), 16ms, 2) == Verdict::rejected);
+    session.connection_closes(2);
+    CHECK(session.accept(pose_frame(9), 17ms, 3) == Verdict::rejected);
+    session.connection_closes(1);
+    CHECK(session.accept(pose_frame(10), 32ms, 4) == Verdict::pose);
+    CHECK(session.statistics().lost == 2);
+    CHECK(session.statistics().restarts == 0);
+    for (const auto& [sequence, arrival] : {std::pair{std::uint16_t{10}, 48ms}, {std::uint16_t{11}, 2000ms}}) {
+        session.connection_closes(sequence == 10 ? 4 : 5);
+        CHECK(session.accept(pose_frame(sequence), arrival, sequence == 10 ? 5 : 6) == Verdict::pose);
+    }
+    CHECK(session.statistics().restarts == 2);
+}
+
 TEST_CASE("mbpoll drives the link by one write, and reads the known values and the status back") {
     Live live;
     const std::string peer = "mbpoll -m tcp -0 -p " + std::to_string(live.link.port()) + " ";

@@ -19,13 +19,16 @@ using namespace quadrig::host::test;
 namespace {
 
 /// An IPv4 packet with a TCP segment in it; checksums zero.
-Bytes segment_packet(std::uint32_t sequence, std::span<const std::byte> payload) {
+constexpr std::byte kFin{1}, kSyn{2}, kReset{4}, kPushAck{0x18};
+Bytes segment_packet(std::uint32_t sequence, std::span<const std::byte> payload, std::byte flags = kPushAck,
+                     std::uint16_t port = 8005) {
     constexpr std::size_t kIp = 20, kTcp = 20, kUdp = 8;
-    Bytes packet = ipv4_udp(Bytes(kTcp - kUdp) + Bytes(payload.begin(), payload.end()), {.destination_port = 502});
+    Bytes packet = ipv4_udp(Bytes(kTcp - kUdp) + Bytes(payload.begin(), payload.end()),
+                            {.source_port = port, .destination_port = 502});
     packet[9] = std::byte{6};
     store(std::span(packet), kIp + 4, ByteOrder::big, sequence);
     packet[kIp + 12] = std::byte{0x50};
-    packet[kIp + 13] = std::byte{0x18};
+    packet[kIp + 13] = flags;
     return packet;
 }
 
@@ -105,5 +108,33 @@ TEST_CASE("Segments captured out of order give every frame, and a lost one takes
                                              static_cast<std::int64_t>(2 * f + 1 - (f < lost / 2 ? 0 : 1))));
             }
         }
+    }
+}
+
+TEST_CASE("A stream ends with FIN or RST, or where its port begins another, and of one flow it is told between which") {
+    constexpr std::uint32_t kRawIp = 101;
+    PcapWriter writer(kRawIp);
+    Time now{1'000'000'000};
+    const auto add = [&](const Bytes& packet) { writer.packet(packet, now += Time(1'000'000)); };
+    const Bytes frame = request_with(1);
+    add(segment_packet(100, frame, kPushAck, 1));
+    // A server that writes too: a flow of its own, which is not taken.
+    Bytes other = segment_packet(100, frame, kPushAck, 9);
+    other[15] = std::byte{99};
+    add(other);
+    add(segment_packet(161, {}, kFin, 1));
+    add(segment_packet(100, frame, kPushAck, 2));
+    add(segment_packet(161, {}, kReset, 2));
+    add(segment_packet(100, frame, kPushAck, 3));
+    add(segment_packet(500, {}, kSyn, 3));
+    add(segment_packet(501, frame, kPushAck, 3));
+    add(segment_packet(562, {}, kFin, 3));
+    const Capture capture = read_capture(writer.save("ends.pcap"), Protocol::modbus);
+    REQUIRE(capture.datagrams.size() == 4);
+    CHECK(capture.closed_before(0).empty());
+    for (std::size_t i = 1; i < 4; ++i) {
+        CAPTURE(i);
+        REQUIRE(capture.closed_before(i).size() == 1);
+        CHECK(capture.closed_before(i)[0].source == capture.datagrams[i - 1].source);
     }
 }

@@ -38,7 +38,8 @@ void send(const SendOptions& options) {
     const host::Time first = capture.datagrams.front().captured;
     std::uint64_t sent = 0, failed = 0;
     std::error_code failure;  // the first
-    for (const auto& datagram : capture.datagrams) {
+    for (std::size_t i = 0; i < capture.datagrams.size(); ++i) {
+        const host::Capture::Datagram& datagram = capture.datagrams[i];
         const std::chrono::duration<double, std::nano> since = (datagram.captured - first) / options.speed;
         const auto due =
             start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::min(since, kEver));
@@ -46,8 +47,7 @@ void send(const SendOptions& options) {
             std::this_thread::sleep_until(
                 std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
         if (stop_requested()) break;
-        const auto index = static_cast<std::size_t>(&datagram - capture.datagrams.data());
-        for (const auto& closing : capture.closed_before(index)) sender->close(closing.source);
+        for (const auto& closing : capture.closed_before(i)) sender->close(closing.source);
         const std::error_code refused = sender->send(capture.payload(datagram), datagram.source);
         ++(refused ? failed : sent);
         if (!failure) failure = refused;

@@ -48,7 +48,7 @@ HWY_INLINE V rest_of_turn(V t) {
     return hn::Sub(t, hn::Round(t));
 }
 
-/// By an even polynomial: kParabola or kPolynomial.
+/// By an even polynomial: SineMethod::parabola or polynomial.
 template <class V, SineMethod kMethod>
 class EvenCosine {
   public:
